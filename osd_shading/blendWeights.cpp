@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "osd_shading/blendWeights.h"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+#include "osd_shading/extraordinaryVertices.h"
+#include "osd_shading/vectorMath.h"
+
+namespace osd_shading {
+inline namespace v1 {
+
+namespace {
+
+bool countsAsSharp(BlendWeightOptions const& options, VertexKind kind) {
+    return kind >= VertexKind::Crease || (kind == VertexKind::Dart && options.darts == DartWeight::LikeSharp);
+}
+
+/// What the vertex-vertex child of `vertex` is at the last level.
+VertexKind kindAtLastLevel(RefinedTopology const& topology, int level, int vertex, CreaseRegions const& last) {
+    for (int l = level; l < topology.LastLevel(); ++l) vertex = topology.Level(l).GetVertexChildVertex(vertex);
+    return last.Kind(vertex);
+}
+
+bool isRegularCreaseRegion(bool isCatmark, std::size_t numFaces) {
+    return isCatmark ? numFaces == 2 : numFaces == 1 || numFaces == 3;
+}
+
+void markRegionsOf(BlendWeightOptions const& options, RefinedTopology const& topology, int levelIndex,
+                   CreaseRegions const& regions, CreaseRegions const& last, ValueMarks& eligible) {
+    Far::TopologyLevel const& level = topology.Level(levelIndex);
+    std::vector<RegionFan> fans;
+    for (int v = 0; v < regions.NumVertices(); ++v) {
+        if (regions.NumVertexValues(v) == 0) continue;
+        VertexKind const kind = regions.Kind(v);
+        auto const first = static_cast<std::size_t>(regions.FirstValue(v));
+        if (kind == VertexKind::Smooth) {
+            eligible[first] = IsExtraordinary(topology, level, v);
+        } else if (kind == VertexKind::Dart) {
+            eligible[first] = options.darts == DartWeight::LikeSmooth &&
+                              (IsExtraordinary(topology, level, v) ||
+                               kindAtLastLevel(topology, levelIndex, v, last) == VertexKind::Dart);
+        } else if (kindAtLastLevel(topology, levelIndex, v, last) >= VertexKind::Crease) {
+            FindRegionFans(level, regions, v, fans);
+            for (RegionFan const& fan : fans) {
+                bool const isRegular = kind == VertexKind::Corner
+                                           ? fan.faces.size() == 1
+                                           : isRegularCreaseRegion(topology.IsCatmark(), fan.faces.size());
+                eligible[static_cast<std::size_t>(fan.value)] = !isRegular;
+            }
+        }
+    }
+}
+
+ValueMarks findEligible(BlendWeightOptions const& options, RefinedTopology const& topology, int levelIndex,
+                        CreaseRegions const& regions, CreaseRegions const& last) {
+    ValueMarks eligible(static_cast<std::size_t>(regions.NumValues()), 0);
+    if (options.sharpVertices == SharpVertexWeight::PerRegion) {
+        markRegionsOf(options, topology, levelIndex, regions, last, eligible);
+        return eligible;
+    }
+    Far::TopologyLevel const& level = topology.Level(levelIndex);
+    for (int v = 0; v < regions.NumVertices(); ++v) {
+        if (options.sharpVertices == SharpVertexWeight::Zero && countsAsSharp(options, regions.Kind(v))) continue;
+        if (!IsExtraordinary(topology, level, v)) continue;
+        for (int i = 0; i < regions.NumVertexValues(v); ++i) {
+            eligible[static_cast<std::size_t>(regions.FirstValue(v) + i)] = 1;
+        }
+    }
+    return eligible;
+}
+
+/// The vertices with an eligible value.
+template <typename Visit>
+void forEachMarkedVertex(CreaseRegions const& regions, ValueMarks const& marks, Visit const& visit) {
+    for (int v = 0; v < regions.NumVertices(); ++v) {
+        for (int value = regions.FirstValue(v); value < regions.FirstValue(v + 1); ++value) {
+            if (marks[static_cast<std::size_t>(value)]) {
+                visit(v);
+                break;
+            }
+        }
+    }
+}
+
+/// Sets b = 1 on the rings of eligible vertices, or of their regions.
+template <typename Real>
+void seedRings(BlendWeightOptions const& options, Far::TopologyLevel const& level, CreaseRegions const& regions,
+               ValueMarks const& eligible, std::vector<Real>& weights) {
+    bool const isPerRegion = options.sharpVertices == SharpVertexWeight::PerRegion;
+    bool const skipsSharp = options.sharpVertices == SharpVertexWeight::Zero;
+    forEachMarkedVertex(regions, eligible, [&](int v) {
+        Far::ConstIndexArray const faces = level.GetVertexFaces(v);
+        Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(v);
+        for (int i = 0; i < faces.size(); ++i) {
+            if (!eligible[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]))]) continue;
+            Far::ConstIndexArray const vertices = level.GetFaceVertices(faces[i]);
+            for (int k = 0; k < vertices.size(); ++k) {
+                int const u = vertices[k];
+                if (isPerRegion) {
+                    weights[static_cast<std::size_t>(regions.CornerValue(faces[i], k))] = 1;
+                } else if (!skipsSharp || !countsAsSharp(options, regions.Kind(u))) {
+                    std::fill(weights.begin() + regions.FirstValue(u), weights.begin() + regions.FirstValue(u + 1),
+                              Real(1));
+                }
+            }
+        }
+    });
+}
+
+/// Eligible values whose vertex was not yet eligible at the level before: no region that they came from was.
+ValueMarks findNewlyEligible(RefinedTopology const& topology, int levelIndex, CreaseRegions const& parentRegions,
+                             CreaseRegions const& regions, ValueMarks const& parentEligible,
+                             ValueMarks const& eligible) {
+    Far::TopologyLevel const& parent = topology.Level(levelIndex - 1);
+    Far::TopologyLevel const& level = topology.Level(levelIndex);
+    ValueMarks isNew = eligible;
+    forEachMarkedVertex(regions, eligible, [&](int v) {
+        if (v >= parent.GetNumVertices()) return;  // the child of a face or an edge
+        Far::ConstIndexArray const faces = level.GetVertexFaces(v);
+        Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(v);
+        for (int i = 0; i < faces.size(); ++i) {
+            int const parentFace = level.GetFaceParentFace(faces[i]);
+            int const parentCorner = parent.GetFaceVertices(parentFace).FindIndex(v);
+            if (parentEligible[static_cast<std::size_t>(parentRegions.CornerValue(parentFace, parentCorner))]) {
+                isNew[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]))] = 0;
+            }
+        }
+    });
+    return isNew;
+}
+
+/// Values at the eligible vertices such that the limit of b is 1 at each. [BBK18]
+///
+/// One unknown per vertex, or per region in variant C. The system can be singular (a cube at level 0): of all that
+/// satisfy it best, the solution of least norm is taken.
+template <typename Real>
+void seedInverseLimit(BlendWeightOptions const& options, LimitStep<Real> const& limit, ValueMarks const& eligible,
+                      std::vector<Real>& weights) {
+    CreaseRegions const& regions = limit.Regions();
+    bool const isPerRegion = options.sharpVertices == SharpVertexWeight::PerRegion;
+
+    // Number the unknowns.
+    std::vector<int> unknownOfValue(weights.size(), -1);
+    std::vector<std::pair<int, int>> equations;  // vertex, value
+    forEachMarkedVertex(regions, eligible, [&](int v) {
+        for (int value = regions.FirstValue(v); value < regions.FirstValue(v + 1); ++value) {
+            if (!eligible[static_cast<std::size_t>(value)]) continue;
+            if (isPerRegion || value == regions.FirstValue(v)) equations.emplace_back(v, value);
+            unknownOfValue[static_cast<std::size_t>(value)] = static_cast<int>(equations.size()) - 1;
+        }
+    });
+    if (equations.empty()) return;
+
+    // Each limit is what the unknowns add to it and what is there already.
+    auto const size = static_cast<Eigen::Index>(equations.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd right = Eigen::VectorXd::Ones(size);
+    std::vector<std::pair<int, Real>> terms;
+    for (int row = 0; row < static_cast<int>(equations.size()); ++row) {
+        terms.clear();
+        limit.AppendTerms(equations[static_cast<std::size_t>(row)].first,
+                          equations[static_cast<std::size_t>(row)].second, terms);
+        for (auto const& [value, weight] : terms) {
+            int const unknown = unknownOfValue[static_cast<std::size_t>(value)];
+            if (unknown >= 0) {
+                entries.emplace_back(row, unknown, static_cast<double>(weight));
+            } else {
+                right[row] -=
+                    static_cast<double>(weight) * static_cast<double>(weights[static_cast<std::size_t>(value)]);
+            }
+        }
+    }
+    Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(size, size);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+
+    // Conjugate gradients from zero find the solution of least norm; a second round takes off the first one's
+    // rounding.
+    Eigen::LeastSquaresConjugateGradient<decltype(matrix), Eigen::IdentityPreconditioner> solver(matrix);
+    solver.setTolerance(1e-14);
+    solver.setMaxIterations(1000);
+    Eigen::VectorXd solution = solver.solve(right);
+    Eigen::VectorXd const residual = right - matrix * solution;
+    solution += solver.solve(residual);
+
+    for (std::size_t value = 0; value < weights.size(); ++value) {
+        if (unknownOfValue[value] >= 0) weights[value] = static_cast<Real>(solution[unknownOfValue[value]]);
+    }
+}
+
+}  // namespace
+
+template <typename Real>
+std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
+                                      FieldLevels<Real> const& levels, LimitStep<Real> const& limit,
+                                      int numThreads) {
+    auto const numValuesOf = [&](int level) { return static_cast<std::size_t>(levels.Regions(level).NumValues()); };
+    int const lastLevel = topology.LastLevel();
+    CreaseRegions const& last = levels.Regions(lastLevel);
+    if (options.scheme == WeightScheme::One) return std::vector<Real>(numValuesOf(lastLevel), Real(1));
+
+    std::vector<Real> weights(numValuesOf(options.level), Real(0));
+    ValueMarks parentEligible;
+    for (int level = options.level; level <= lastLevel; ++level) {
+        CreaseRegions const& here = levels.Regions(level);
+        bool const isFirst = level == options.level;
+
+        // Refine what there is.
+        if (!isFirst) {
+            std::vector<Real> refined(numValuesOf(level));
+            if (options.scheme == WeightScheme::Bilinear) {
+                LevelMasks<Real> const masks = topology.RecordMasks<Real>(level, MaskKind::Varying);
+                FieldStep<Real> const step(topology, level, masks, levels.Regions(level - 1), here, numThreads);
+                step.Apply(weights, refined, {}, numThreads);
+            } else {
+                levels.Step(level).Apply(weights, refined, {}, numThreads);
+            }
+            weights.swap(refined);
+        }
+
+        // Seed on top of it.
+        ValueMarks eligible = findEligible(options, topology, level, here, last);
+        if (options.scheme == WeightScheme::OneRing) {
+            seedRings(options, topology.Level(level), here, eligible, weights);
+            continue;
+        }
+        ValueMarks const isNew =
+            isFirst ? eligible
+                    : findNewlyEligible(topology, level, levels.Regions(level - 1), here, parentEligible, eligible);
+        if (options.scheme == WeightScheme::InverseLimit) {
+            if (std::find(isNew.begin(), isNew.end(), 1) != isNew.end()) {
+                std::optional<LimitStep<Real>> own;
+                if (level != lastLevel) own.emplace(topology, level, here, numThreads);
+                seedInverseLimit(options, own ? *own : limit, eligible, weights);
+            }
+        } else {
+            for (std::size_t value = 0; value < weights.size(); ++value) {
+                if (isNew[value]) weights[value] = 1;
+            }
+        }
+        parentEligible.swap(eligible);
+    }
+
+    if (options.scheme != WeightScheme::Bilinear) {
+        std::vector<Real> limits(weights.size());
+        limit.Apply(weights, limits, {}, numThreads);
+        weights.swap(limits);
+    }
+    for (Real& b : weights) b = std::min(std::max(b, Real(0)), Real(1));
+    return weights;
+}
+
+#define OSD_SHADING_INSTANTIATE(Real)                                                                 \
+    template std::vector<Real> ComputeBlendWeights(BlendWeightOptions const&, RefinedTopology const&, \
+                                                   FieldLevels<Real> const&, LimitStep<Real> const&, int);
+OSD_SHADING_INSTANTIATE(float)
+OSD_SHADING_INSTANTIATE(double)
+#undef OSD_SHADING_INSTANTIATE
+
+}  // namespace v1
+}  // namespace osd_shading

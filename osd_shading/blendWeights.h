@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Internal: not installed, not for users.
+
+#include <vector>
+
+#include "osd_shading/fieldRefiner.h"
+#include "osd_shading/limitMasks.h"
+#include "osd_shading/shadingOptions.h"
+
+namespace osd_shading {
+inline namespace v1 {
+
+/// The blend weight b of each value of the last level: its limit, in [0, 1].
+///
+/// At every level from the start level on, b is refined and eligible values are seeded. Eligible are extraordinary
+/// vertices, by variant and dart rule:
+///
+///     variant A     all
+///     variant B     those that are not sharp
+///     variant C     smooth ones; darts; regions of creases and corners whose number of faces is not the regular
+///     one
+///                   and that stay creases or corners up to the last level
+///
+/// `levels` begins at the start level or before; `limit` is the last level's.
+/// COST: one pass over vertices and masks of each level.   [ZBK23] Sec. 3.1-3.3
+template <typename Real>
+std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
+                                      FieldLevels<Real> const& levels, LimitStep<Real> const& limit,
+                                      int numThreads);
+
+}  // namespace v1
+}  // namespace osd_shading

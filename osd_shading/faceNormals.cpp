@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "osd_shading/faceNormals.h"
+
+#include "osd_shading/parallel.h"
+#include "osd_shading/vectorMath.h"
+
+namespace osd_shading {
+inline namespace v1 {
+
+namespace {
+
+/// A sum of vectors and of the lengths that went into it.
+template <typename Real>
+struct VectorSum {
+    Vec3<Real> sum{};
+    Real added = 0;
+
+    void add(Vec3<Real> const& unit, Real weight) {
+        if (IsZero(unit)) return;
+        sum += weight * unit;
+        added += weight;
+    }
+    Vec3<Real> normalized() const { return NormalizedSum(sum, added); }
+};
+
+}  // namespace
+
+template <typename Real>
+Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face) {
+    Far::ConstIndexArray const vertices = level.GetFaceVertices(face);
+    Vec3<Real> const origin = points[static_cast<std::size_t>(vertices[0])];
+    // Scaled to unit size first: areas of tiny or huge faces leave the range of numbers.
+    Real size = 0;
+    for (int i = 1; i < vertices.size(); ++i) {
+        size = std::fmax(size, Length(points[static_cast<std::size_t>(vertices[i])] - origin));
+    }
+    if (!(size > 0)) return {};
+    auto const sideTo = [&](int i) {
+        Vec3<Real> const side = points[static_cast<std::size_t>(vertices[i])] - origin;
+        return Vec3<Real>{side.x / size, side.y / size, side.z / size};
+    };
+    // An area vanishes against the product of its triangles' sides, not against itself: rounding is no normal.
+    Vec3<Real> area{}, side = sideTo(1);
+    Real added = 0, sideLength = Length(side);
+    for (int i = 2; i < vertices.size(); ++i) {
+        Vec3<Real> const next = sideTo(i);
+        Real const nextLength = Length(next);
+        area += Cross(side, next);
+        added += sideLength * nextLength;
+        side = next;
+        sideLength = nextLength;
+    }
+    return NormalizedSum(area, added);
+}
+
+template <typename Real>
+Real WeightOfFace(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face, int corner,
+                  FaceWeight weight) {
+    if (weight == FaceWeight::Uniform) return 1;
+    Far::ConstIndexArray const vertices = level.GetFaceVertices(face);
+    int const size = vertices.size();
+    Vec3<Real> const p = points[static_cast<std::size_t>(vertices[corner])];
+    Vec3<Real> const after = points[static_cast<std::size_t>(vertices[(corner + 1) % size])] - p;
+    Vec3<Real> const before = points[static_cast<std::size_t>(vertices[(corner + size - 1) % size])] - p;
+    Real const area = Length(Cross(after, before));
+    return weight == FaceWeight::CornerArea ? area : std::atan2(area, Dot(after, before));
+}
+
+template <typename Real>
+Vec3<Real> AverageFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points,
+                             RegionFan const& fan, FaceWeight weight) {
+    VectorSum<Real> sum;
+    for (std::size_t i = 0; i < fan.faces.size(); ++i) {
+        sum.add(UnitFaceNormal(level, points, fan.faces[i]),
+                WeightOfFace(level, points, fan.faces[i], fan.corners[i], weight));
+    }
+    return sum.normalized();
+}
+
+template <typename Real>
+std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const& level, CreaseRegions const& regions,
+                                           std::vector<Vec3<Real>> const& points, FaceWeight weight,
+                                           int numThreads) {
+    std::vector<Vec3<Real>> faceNormals(static_cast<std::size_t>(level.GetNumFaces()));
+    ParallelFor(level.GetNumFaces(), numThreads, [&](int begin, int end, int) {
+        for (int f = begin; f < end; ++f) {
+            faceNormals[static_cast<std::size_t>(f)] = UnitFaceNormal(level, points, f);
+        }
+    });
+    std::vector<Vec3<Real>> normals(static_cast<std::size_t>(regions.NumValues()));
+    ParallelFor(regions.NumVertices(), numThreads, [&](int begin, int end, int) {
+        std::vector<VectorSum<Real>> sums;
+        for (int v = begin; v < end; ++v) {
+            int const first = regions.FirstValue(v);
+            sums.assign(static_cast<std::size_t>(regions.NumVertexValues(v)), {});
+            Far::ConstIndexArray const faces = level.GetVertexFaces(v);
+            Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(v);
+            for (int i = 0; i < faces.size(); ++i) {
+                sums[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]) - first)].add(
+                    faceNormals[static_cast<std::size_t>(faces[i])],
+                    WeightOfFace(level, points, faces[i], corners[i], weight));
+            }
+            for (std::size_t i = 0; i < sums.size(); ++i) {
+                normals[static_cast<std::size_t>(first) + i] = sums[i].normalized();
+            }
+        }
+    });
+    return normals;
+}
+
+#define OSD_SHADING_INSTANTIATE(Real)                                                                            \
+    template Vec3<Real> UnitFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&, int);          \
+    template Real WeightOfFace(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&, int, int, FaceWeight); \
+    template Vec3<Real> AverageFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&,             \
+                                          RegionFan const&, FaceWeight);                                         \
+    template std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const&, CreaseRegions const&,         \
+                                                        std::vector<Vec3<Real>> const&, FaceWeight, int);
+OSD_SHADING_INSTANTIATE(float)
+OSD_SHADING_INSTANTIATE(double)
+#undef OSD_SHADING_INSTANTIATE
+
+}  // namespace v1
+}  // namespace osd_shading

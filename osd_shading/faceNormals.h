@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Internal: not installed, not for users.
+
+#include <cstdint>
+#include <vector>
+
+#include "osd_shading/creaseRegions.h"
+
+namespace osd_shading {
+inline namespace v1 {
+
+/// How much a face counts in the normal of a vertex.
+enum class FaceWeight { Uniform, CornerArea, Angle };
+
+/// The unit normal of a face by its vector area (Newell); zero where it has none.
+template <typename Real>
+Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face);
+
+/// What `face` counts at its corner `corner`.
+template <typename Real>
+Real WeightOfFace(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face, int corner,
+                  FaceWeight weight);
+
+/// The normalised sum of the unit normals of a region's faces; zero where it vanishes.
+template <typename Real>
+Vec3<Real> AverageFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points,
+                             RegionFan const& fan, FaceWeight weight);
+
+/// That of every value of a level. [ZBK23] Sec. 2.2
+template <typename Real>
+std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const& level, CreaseRegions const& regions,
+                                           std::vector<Vec3<Real>> const& points, FaceWeight weight,
+                                           int numThreads);
+
+}  // namespace v1
+}  // namespace osd_shading

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "osd_shading/limitFrames.h"
+
+#include <limits>
+
+#include "osd_shading/parallel.h"
+#include "osd_shading/vectorMath.h"
+
+namespace osd_shading {
+inline namespace v1 {
+
+namespace {
+
+/// The unit normal of the tangents that `mask` gives round `vertex`, decided exactly; zero where they are
+/// degenerate.
+template <typename Real>
+Vec3<Real> normalOfDoubtfulTangents(std::vector<Vec3<Real>> const& points, int vertex, VertexRing const& ring,
+                                    LimitMask<Real> const& mask) {
+    Vec3<Real> const origin = points[static_cast<std::size_t>(vertex)];
+    Vec3<Real> tangent1{}, tangent2{};
+    Real added1 = 0, added2 = 0;
+    auto const add = [&](int neighbor, typename LimitMask<Real>::Weights const& weights) {
+        Vec3<Real> const side = points[static_cast<std::size_t>(neighbor)] - origin;
+        Real const length = Length(side);
+        tangent1 += weights.tangent1 * side;
+        tangent2 += weights.tangent2 * side;
+        added1 += std::fabs(weights.tangent1) * length;
+        added2 += std::fabs(weights.tangent2) * length;
+    };
+    for (std::size_t i = 0; i < ring.faceOpposites.size(); ++i) add(ring.faceOpposites[i], mask.faces[i]);
+    for (std::size_t i = 0; i < ring.edgeEnds.size(); ++i) add(ring.edgeEnds[i], mask.edges[i]);
+    if (!(added1 > 0) || !(added2 > 0)) return {};
+    // Scaled first: the product of tiny or huge tangents leaves the range of numbers.
+    auto const scaled = [](Vec3<Real> const& a, Real size) {
+        return Vec3<Real>{a.x / size, a.y / size, a.z / size};
+    };
+    return NormalizedSum(Cross(scaled(tangent1, added1), scaled(tangent2, added2)), Real(1));
+}
+
+/// The same, settled without a root per neighbour where the tangents are far from degenerate.
+template <typename Real>
+Vec3<Real> normalOfTangents(std::vector<Vec3<Real>> const& points, int vertex, VertexRing const& ring,
+                            LimitMask<Real> const& mask) {
+    Vec3<Real> const origin = points[static_cast<std::size_t>(vertex)];
+    Vec3<Real> tangent1{}, tangent2{};
+    Real squares = 0;
+    // Weights add to zero: differences leave out the vertex itself, and keep what a distant origin would round
+    // away.
+    auto const add = [&](int neighbor, typename LimitMask<Real>::Weights const& weights) {
+        Vec3<Real> const side = points[static_cast<std::size_t>(neighbor)] - origin;
+        squares += Dot(side, side);
+        tangent1 += weights.tangent1 * side;
+        tangent2 += weights.tangent2 * side;
+    };
+    for (std::size_t i = 0; i < ring.faceOpposites.size(); ++i) add(ring.faceOpposites[i], mask.faces[i]);
+    for (std::size_t i = 0; i < ring.edgeEnds.size(); ++i) add(ring.edgeEnds[i], mask.edges[i]);
+
+    // By Cauchy and Schwarz sum |w| |p - v| is at most the root of (sum w^2) (sum |p - v|^2).
+    Vec3<Real> const normal = Cross(tangent1, tangent2);
+    Real const squared = Dot(normal, normal), bound = kVanishing<Real> * mask.tangentNorms * squares;
+    constexpr Real kSmallest = std::numeric_limits<Real>::min() / kVanishing<Real>;
+    if (squared > bound * bound && squared > kSmallest && squared < 1 / kSmallest) {
+        Real const inverse = 1 / std::sqrt(squared);
+        return inverse * normal;
+    }
+    return normalOfDoubtfulTangents(points, vertex, ring, mask);
+}
+
+template <typename Real>
+Vec3<Real> normalOfCorner(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face,
+                          int corner) {
+    Far::ConstIndexArray const vertices = level.GetFaceVertices(face);
+    int const size = vertices.size();
+    Vec3<Real> const origin = points[static_cast<std::size_t>(vertices[corner])];
+    Vec3<Real> const after = points[static_cast<std::size_t>(vertices[(corner + 1) % size])] - origin;
+    Vec3<Real> const before = points[static_cast<std::size_t>(vertices[(corner + size - 1) % size])] - origin;
+    return NormalizedSum(Cross(Normalized(after), Normalized(before)), Real(1));
+}
+
+struct ChunkCounts {
+    std::vector<int> missing;
+    std::int64_t numFallbacks = 0;
+};
+
+template <typename Real>
+void gather(std::vector<ChunkCounts> const& chunks, LimitNormals<Real>& result) {
+    for (ChunkCounts const& chunk : chunks) {
+        result.missing.insert(result.missing.end(), chunk.missing.begin(), chunk.missing.end());
+        result.numFallbacks += chunk.numFallbacks;
+    }
+}
+
+}  // namespace
+
+template <typename Real>
+LimitNormals<Real> ComputeLimitNormals(LimitStep<Real> const& step, std::vector<Vec3<Real>> const& points,
+                                       int numThreads) {
+    CreaseRegions const& regions = step.Regions();
+    Far::TopologyLevel const& level = step.Level();
+    bool const isCatmark = step.Topology().IsCatmark();
+    LimitNormals<Real> result;
+    result.normals.resize(static_cast<std::size_t>(regions.NumValues()));
+    std::vector<ChunkCounts> chunks(static_cast<std::size_t>(NumChunks(regions.NumVertices())));
+    ParallelFor(regions.NumVertices(), numThreads, [&](int begin, int end, int chunk) {
+        ChunkCounts& counts = chunks[static_cast<std::size_t>(chunk)];
+        VertexRing ring;
+        std::vector<RegionFan> fans;
+        for (int v = begin; v < end; ++v) {
+            int const numValues = regions.NumVertexValues(v);
+            if (numValues == 0) continue;
+            VertexKind const kind = regions.Kind(v);
+
+            // Smooth vertices and darts: their ring, as OpenSubdiv orders it.
+            if (kind <= VertexKind::Dart) {
+                ring.Gather(level, v, isCatmark);
+                Vec3<Real>& normal = result.normals[static_cast<std::size_t>(regions.FirstValue(v))];
+                normal = normalOfTangents(points, v, ring, step.Masks().Ring(level.GetVertexFaces(v).size()));
+                if (!IsZero(normal)) continue;
+            }
+
+            // The others, region by region.
+            FindRegionFans(level, regions, v, fans);
+            for (RegionFan const& fan : fans) {
+                Vec3<Real>& normal = result.normals[static_cast<std::size_t>(fan.value)];
+                bool const isOneFace = fan.faces.size() == 1;
+                bool const isAverage = kind == VertexKind::Corner ? !isOneFace : !fan.isOrdered;
+                if (kind == VertexKind::Crease && fan.isOrdered) {
+                    ring.Gather(level, fan, isCatmark);
+                    normal =
+                        normalOfTangents(points, v, ring, step.Masks().Fan(static_cast<int>(fan.faces.size())));
+                } else if (kind == VertexKind::Corner && isOneFace) {
+                    normal = normalOfCorner(level, points, fan.faces[0], fan.corners[0]);
+                }
+                if (!IsZero(normal)) continue;
+                normal = AverageFaceNormal(level, points, fan, FaceWeight::Uniform);
+                if (!isAverage || IsZero(normal)) ++counts.numFallbacks;
+                if (IsZero(normal)) counts.missing.push_back(fan.value);
+            }
+        }
+    });
+    gather(chunks, result);
+    return result;
+}
+
+template <typename Real>
+LimitNormals<Real> ComputeFaceAverageNormals(LimitStep<Real> const& step, std::vector<Vec3<Real>> const& points,
+                                             FaceWeight weight, int numThreads) {
+    LimitNormals<Real> result;
+    result.normals = AverageFaceNormals(step.Level(), step.Regions(), points, weight, numThreads);
+    for (std::size_t value = 0; value < result.normals.size(); ++value) {
+        if (IsZero(result.normals[value])) result.missing.push_back(static_cast<int>(value));
+    }
+    result.numFallbacks = static_cast<std::int64_t>(result.missing.size());
+    return result;
+}
+
+#define OSD_SHADING_INSTANTIATE(Real)                                                                             \
+    template LimitNormals<Real> ComputeLimitNormals(LimitStep<Real> const&, std::vector<Vec3<Real>> const&, int); \
+    template LimitNormals<Real> ComputeFaceAverageNormals(LimitStep<Real> const&, std::vector<Vec3<Real>> const&, \
+                                                          FaceWeight, int);
+OSD_SHADING_INSTANTIATE(float)
+OSD_SHADING_INSTANTIATE(double)
+#undef OSD_SHADING_INSTANTIATE
+
+}  // namespace v1
+}  // namespace osd_shading

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "osd_shading/limitMasks.h"
+
+#include <opensubdiv/sdc/catmarkScheme.h>
+#include <opensubdiv/sdc/loopScheme.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "osd_shading/parallel.h"
+#include "osd_shading/vectorMath.h"
+
+namespace osd_shading {
+inline namespace v1 {
+
+namespace {
+
+/// A fan of faces as Sdc::Scheme asks about it.
+struct FanNeighborhood {
+    int numEdges, numFaces;
+
+    int GetNumEdges() const { return numEdges; }
+    int GetNumFaces() const { return numFaces; }
+    float* GetSharpnessPerEdge(float* sharpness) const {
+        std::fill(sharpness, sharpness + numEdges, 0.0f);
+        if (numEdges > numFaces) {
+            sharpness[0] = sharpness[numEdges - 1] = Sdc::Crease::SHARPNESS_INFINITE;
+        }
+        return sharpness;
+    }
+};
+
+template <typename Real>
+struct SdcMask {
+    using Weight = Real;
+    explicit SdcMask(int size) : edges(static_cast<std::size_t>(size)), faces(static_cast<std::size_t>(size)) {}
+
+    int GetNumVertexWeights() const { return 1; }
+    int GetNumEdgeWeights() const { return numEdges; }
+    int GetNumFaceWeights() const { return numFaces; }
+    void SetNumVertexWeights(int) {}
+    void SetNumEdgeWeights(int n) { numEdges = n; }
+    void SetNumFaceWeights(int n) { numFaces = n; }
+    Weight const& VertexWeight(int) const { return vertex; }
+    Weight const& EdgeWeight(int i) const { return edges[static_cast<std::size_t>(i)]; }
+    Weight const& FaceWeight(int i) const { return faces[static_cast<std::size_t>(i)]; }
+    Weight& VertexWeight(int) { return vertex; }
+    Weight& EdgeWeight(int i) { return edges[static_cast<std::size_t>(i)]; }
+    Weight& FaceWeight(int i) { return faces[static_cast<std::size_t>(i)]; }
+    bool AreFaceWeightsForFaceCenters() const { return false; }
+    void SetFaceWeightsForFaceCenters(bool) {}
+
+    Weight vertex = 0;
+    std::vector<Weight> edges, faces;
+    int numEdges = 0, numFaces = 0;
+};
+
+template <typename Real>
+std::unique_ptr<LimitMask<Real>> computeMask(Sdc::SchemeType scheme, int numFaces, bool isRing) {
+    FanNeighborhood const fan{isRing ? numFaces : numFaces + 1, numFaces};
+    Sdc::Crease::Rule const rule = isRing ? Sdc::Crease::RULE_SMOOTH : Sdc::Crease::RULE_CREASE;
+    SdcMask<Real> position(fan.numEdges), tangent1(fan.numEdges), tangent2(fan.numEdges);
+    if (scheme == Sdc::SCHEME_CATMARK) {
+        Sdc::Scheme<Sdc::SCHEME_CATMARK>().ComputeVertexLimitMask(fan, position, tangent1, tangent2, rule);
+    } else {
+        Sdc::Scheme<Sdc::SCHEME_LOOP>().ComputeVertexLimitMask(fan, position, tangent1, tangent2, rule);
+    }
+    // A tangent's weights under the precision are rounding of a zero.
+    auto const rounded = [](Real w) { return std::fabs(w) < kVanishing<Real> ? Real(0) : w; };
+    auto mask = std::make_unique<LimitMask<Real>>();
+    mask->vertex = {position.vertex, rounded(tangent1.vertex), rounded(tangent2.vertex)};
+    mask->edges.resize(static_cast<std::size_t>(fan.numEdges));
+    mask->faces.resize(scheme == Sdc::SCHEME_CATMARK ? static_cast<std::size_t>(numFaces) : 0);
+    auto const weight = [](std::vector<Real> const& weights, int count, std::size_t i) {
+        return i < static_cast<std::size_t>(count) ? weights[i] : Real(0);
+    };
+    for (std::size_t i = 0; i < mask->edges.size(); ++i) {
+        mask->edges[i] = {weight(position.edges, position.numEdges, i),
+                          rounded(weight(tangent1.edges, tangent1.numEdges, i)),
+                          rounded(weight(tangent2.edges, tangent2.numEdges, i))};
+    }
+    for (std::size_t i = 0; i < mask->faces.size(); ++i) {
+        mask->faces[i] = {weight(position.faces, position.numFaces, i),
+                          rounded(weight(tangent1.faces, tangent1.numFaces, i)),
+                          rounded(weight(tangent2.faces, tangent2.numFaces, i))};
+    }
+    Real squares1 = 0, squares2 = 0;
+    for (auto const* weights : {&mask->edges, &mask->faces}) {
+        for (auto const& w : *weights) {
+            squares1 += w.tangent1 * w.tangent1;
+            squares2 += w.tangent2 * w.tangent2;
+        }
+    }
+    mask->tangentNorms = std::sqrt(squares1 * squares2);
+    return mask;
+}
+
+template <typename Real>
+void provide(std::vector<std::unique_ptr<LimitMask<Real>>>& masks, Sdc::SchemeType scheme, int numFaces,
+             bool isRing) {
+    auto const i = static_cast<std::size_t>(numFaces);
+    if (masks.size() <= i) masks.resize(i + 1);
+    if (!masks[i]) masks[i] = computeMask<Real>(scheme, numFaces, isRing);
+}
+
+}  // namespace
+
+template <typename Real>
+LimitMasks<Real>::LimitMasks(RefinedTopology const& topology, int levelIndex, CreaseRegions const& regions) {
+    Far::TopologyLevel const& level = topology.Level(levelIndex);
+    provide(_fans, topology.Scheme(), 1, false);
+    std::vector<int> facesOfRegion;
+    for (int v = 0; v < level.GetNumVertices(); ++v) {
+        int const numFaces = level.GetVertexFaces(v).size();
+        VertexKind const kind = regions.Kind(v);
+        if (numFaces == 0 || kind == VertexKind::Corner) continue;
+        if (kind != VertexKind::Crease) {
+            provide(_rings, topology.Scheme(), numFaces, true);
+            continue;
+        }
+        facesOfRegion.assign(static_cast<std::size_t>(regions.NumVertexValues(v)), 0);
+        Far::ConstIndexArray const faces = level.GetVertexFaces(v);
+        Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(v);
+        for (int i = 0; i < numFaces; ++i) {
+            ++facesOfRegion[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]) -
+                                                     regions.FirstValue(v))];
+        }
+        for (int const count : facesOfRegion) provide(_fans, topology.Scheme(), count, false);
+    }
+}
+
+void VertexRing::Gather(Far::TopologyLevel const& level, int vertex, bool isCatmark) {
+    Far::ConstIndexArray const faces = level.GetVertexFaces(vertex);
+    Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(vertex);
+    int const numFaces = faces.size(), numEdges = level.GetVertexEdges(vertex).size();
+    edgeEnds.resize(static_cast<std::size_t>(numEdges));
+    faceOpposites.resize(isCatmark ? static_cast<std::size_t>(numFaces) : 0);
+    if (isCatmark) {
+        for (int i = 0; i < numFaces; ++i) {
+            Far::ConstIndexArray const vertices = level.GetFaceVertices(faces[i]);
+            edgeEnds[static_cast<std::size_t>(i)] = vertices[(corners[i] + 1) & 3];
+            faceOpposites[static_cast<std::size_t>(i)] = vertices[(corners[i] + 2) & 3];
+        }
+    } else {
+        for (int i = 0; i < numFaces; ++i) {
+            edgeEnds[static_cast<std::size_t>(i)] =
+                level.GetFaceVertices(faces[i])[corners[i] == 2 ? 0 : corners[i] + 1];
+        }
+    }
+    if (numEdges > numFaces && numFaces > 0) {
+        int const corner = corners[numFaces - 1], size = isCatmark ? 4 : 3;
+        edgeEnds.back() = level.GetFaceVertices(faces[numFaces - 1])[corner == 0 ? size - 1 : corner - 1];
+    }
+}
+
+void VertexRing::Gather(Far::TopologyLevel const& level, RegionFan const& fan, bool isCatmark) {
+    int const size = isCatmark ? 4 : 3;
+    edgeEnds.clear();
+    faceOpposites.clear();
+    for (std::size_t i = 0; i < fan.faces.size(); ++i) {
+        Far::ConstIndexArray const vertices = level.GetFaceVertices(fan.faces[i]);
+        edgeEnds.push_back(vertices[(fan.corners[i] + 1) % size]);
+        if (isCatmark) faceOpposites.push_back(vertices[(fan.corners[i] + 2) % size]);
+    }
+    if (!fan.isClosed) {
+        edgeEnds.push_back(level.GetFaceVertices(fan.faces.back())[(fan.corners.back() + size - 1) % size]);
+    }
+}
+
+template <typename Real>
+template <typename Visit>
+void LimitStep<Real>::forEachVertexTerm(int vertex, VertexRing& ring, Visit const& visit) const {
+    int const numFaces = _level->GetVertexFaces(vertex).size();
+    VertexKind const kind = _regions->Kind(vertex);
+    if (numFaces == 0 || kind == VertexKind::Corner) {
+        visit(vertex, Real(1));
+        return;
+    }
+    if (kind == VertexKind::Crease) {
+        // The mask of a crease names its two sharp edges and is the same for every fan.
+        LimitMask<Real> const& mask = _masks.Fan(1);
+        for (int const edge : _level->GetVertexEdges(vertex)) {
+            if (!IsSharpEdge(*_level, edge)) continue;
+            Far::ConstIndexArray const ends = _level->GetEdgeVertices(edge);
+            visit(ends[0] == vertex ? ends[1] : ends[0], mask.edges[0].position);
+        }
+        visit(vertex, mask.vertex.position);
+        return;
+    }
+    ring.Gather(*_level, vertex, _topology->IsCatmark());
+    LimitMask<Real> const& mask = _masks.Ring(numFaces);
+    for (std::size_t i = 0; i < ring.faceOpposites.size(); ++i) {
+        visit(ring.faceOpposites[i], mask.faces[i].position);
+    }
+    for (std::size_t i = 0; i < ring.edgeEnds.size(); ++i) visit(ring.edgeEnds[i], mask.edges[i].position);
+    visit(vertex, mask.vertex.position);
+}
+
+template <typename Real>
+LimitStep<Real>::LimitStep(RefinedTopology const& topology, int level, CreaseRegions const& regions, int numThreads)
+    : _topology(&topology), _level(&topology.Level(level)), _regions(&regions), _masks(topology, level, regions) {
+    int const numVertices = regions.NumVertices();
+    bool const isPlain = regions.NumValues() == numVertices;
+
+    // Find the vertices in whose faces a vertex has several regions, or none.
+    std::vector<std::vector<int>> specialOfChunk(static_cast<std::size_t>(NumChunks(numVertices)));
+    ParallelFor(numVertices, numThreads, [&](int begin, int end, int chunk) {
+        for (int v = begin; v < end; ++v) {
+            bool isPlainVertex = regions.NumVertexValues(v) == 1;
+            if (isPlainVertex && !isPlain) {
+                for (int const face : _level->GetVertexFaces(v)) isPlainVertex &= regions.IsPlainFace(face);
+            }
+            if (!isPlainVertex) specialOfChunk[static_cast<std::size_t>(chunk)].push_back(v);
+        }
+    });
+
+    std::unique_ptr<RegionRule<Real>> rule;
+    VertexRing ring;
+    std::vector<int> faces;
+    for (std::vector<int> const& special : specialOfChunk) {
+        if (special.empty()) continue;
+        if (!rule) {
+            rule = std::make_unique<RegionRule<Real>>(*_level, regions);
+            _isSpecial.assign(static_cast<std::size_t>(numVertices), 0);
+        }
+        for (int const v : special) {
+            _isSpecial[static_cast<std::size_t>(v)] = 1;
+            if (regions.NumVertexValues(v) == 0) continue;
+            rule->Clear();
+            forEachVertexTerm(v, ring, [&](int u, Real weight) { rule->AddVertex(u, weight); });
+            Far::ConstIndexArray const vertexFaces = _level->GetVertexFaces(v);
+            Far::ConstLocalIndexArray const corners = _level->GetVertexFaceLocalIndices(v);
+            for (int i = 0; i < regions.NumVertexValues(v); ++i) {
+                int const value = regions.FirstValue(v) + i;
+                faces.clear();
+                for (int k = 0; k < vertexFaces.size(); ++k) {
+                    if (regions.CornerValue(vertexFaces[k], corners[k]) == value) faces.push_back(vertexFaces[k]);
+                }
+                rule->AppendRow(value, faces, _special);
+            }
+        }
+    }
+}
+
+template <typename Real>
+void LimitStep<Real>::ApplyToPoints(std::vector<Vec3<Real>> const& points, std::vector<Vec3<Real>>& limits,
+                                    int numThreads) const {
+    limits.resize(points.size());
+    ParallelFor(_regions->NumVertices(), numThreads, [&](int begin, int end, int) {
+        VertexRing ring;
+        for (int v = begin; v < end; ++v) {
+            Vec3<Real> sum{};
+            forEachVertexTerm(v, ring,
+                              [&](int u, Real weight) { sum += weight * points[static_cast<std::size_t>(u)]; });
+            limits[static_cast<std::size_t>(v)] = sum;
+        }
+    });
+}
+
+template <typename Real>
+template <typename T>
+void LimitStep<Real>::Apply(std::vector<T> const& field, std::vector<T>& limits, ValueMarks const& marks,
+                            int numThreads) const {
+    auto const isNeeded = [&](int value) { return marks.empty() || marks[static_cast<std::size_t>(value)]; };
+    ParallelFor(static_cast<int>(_special.targets.size()), numThreads, [&](int begin, int end, int) {
+        for (int i = begin; i < end; ++i) {
+            int const target = _special.targets[static_cast<std::size_t>(i)];
+            if (!isNeeded(target)) continue;
+            T sum{};
+            for (int t = _special.offsets[static_cast<std::size_t>(i)];
+                 t < _special.offsets[static_cast<std::size_t>(i) + 1]; ++t) {
+                sum += _special.weights[static_cast<std::size_t>(t)] *
+                       field[static_cast<std::size_t>(_special.values[static_cast<std::size_t>(t)])];
+            }
+            limits[static_cast<std::size_t>(target)] = sum;
+        }
+    });
+    ParallelFor(_regions->NumVertices(), numThreads, [&](int begin, int end, int) {
+        VertexRing ring;
+        for (int v = begin; v < end; ++v) {
+            if (isSpecial(v)) continue;
+            int const value = _regions->FirstValue(v);
+            if (!isNeeded(value)) continue;
+            T sum{};
+            forEachVertexTerm(v, ring, [&](int u, Real weight) {
+                sum += weight * field[static_cast<std::size_t>(_regions->FirstValue(u))];
+            });
+            limits[static_cast<std::size_t>(value)] = sum;
+        }
+    });
+}
+
+template <typename Real>
+void LimitStep<Real>::MarkSources(ValueMarks const& marks, ValueMarks& sources) const {
+    sources.assign(static_cast<std::size_t>(_regions->NumValues()), 0);
+    for (std::size_t i = 0; i < _special.targets.size(); ++i) {
+        if (!marks[static_cast<std::size_t>(_special.targets[i])]) continue;
+        for (int t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
+            sources[static_cast<std::size_t>(_special.values[static_cast<std::size_t>(t)])] = 1;
+        }
+    }
+    VertexRing ring;
+    for (int v = 0; v < _regions->NumVertices(); ++v) {
+        if (isSpecial(v) || !marks[static_cast<std::size_t>(_regions->FirstValue(v))]) continue;
+        forEachVertexTerm(v, ring,
+                          [&](int u, Real) { sources[static_cast<std::size_t>(_regions->FirstValue(u))] = 1; });
+    }
+}
+
+template <typename Real>
+void LimitStep<Real>::AppendTerms(int vertex, int value, std::vector<std::pair<int, Real>>& terms) const {
+    if (isSpecial(vertex)) {
+        auto const found = std::lower_bound(_special.targets.begin(), _special.targets.end(), value);
+        auto const i = static_cast<std::size_t>(found - _special.targets.begin());
+        for (int t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
+            terms.emplace_back(_special.values[static_cast<std::size_t>(t)],
+                               _special.weights[static_cast<std::size_t>(t)]);
+        }
+        return;
+    }
+    VertexRing ring;
+    forEachVertexTerm(vertex, ring,
+                      [&](int u, Real weight) { terms.emplace_back(_regions->FirstValue(u), weight); });
+}
+
+#define OSD_SHADING_INSTANTIATE(Real)                                                                          \
+    template class LimitMasks<Real>;                                                                           \
+    template class LimitStep<Real>;                                                                            \
+    template void LimitStep<Real>::Apply(std::vector<Real> const&, std::vector<Real>&, ValueMarks const&, int) \
+        const;                                                                                                 \
+    template void LimitStep<Real>::Apply(std::vector<Vec3<Real>> const&, std::vector<Vec3<Real>>&,             \
+                                         ValueMarks const&, int) const;
+OSD_SHADING_INSTANTIATE(float)
+OSD_SHADING_INSTANTIATE(double)
+#undef OSD_SHADING_INSTANTIATE
+
+}  // namespace v1
+}  // namespace osd_shading

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Internal: not installed, not for users.
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace osd_shading {
+inline namespace v1 {
+
+/// Items of one chunk: fixed, so that what is gathered chunk by chunk does not depend on the threads.
+constexpr int kChunkSize = 4096;
+
+inline int NumChunks(int numItems) {
+    return static_cast<int>((static_cast<std::int64_t>(numItems) + kChunkSize - 1) / kChunkSize);
+}
+
+/// Calls `body(begin, end, chunk)` for every chunk of [0, numItems), on `numThreads` threads at most. The first
+/// exception is rethrown when all threads have ended.
+template <typename Body>
+void ParallelFor(int numItems, int numThreads, Body const& body) {
+    int const numChunks = NumChunks(numItems);
+    auto const runChunk = [&](int chunk) {
+        int const begin = chunk * kChunkSize;
+        body(begin, std::min(numItems - begin, kChunkSize) + begin, chunk);
+    };
+    numThreads = std::min(numThreads, numChunks);
+    if (numThreads <= 1) {
+        for (int chunk = 0; chunk < numChunks; ++chunk) runChunk(chunk);
+        return;
+    }
+    std::atomic<int> next{0};
+    std::vector<std::exception_ptr> failures(static_cast<std::size_t>(numThreads));
+    auto const work = [&](std::size_t thread) {
+        try {
+            for (int chunk = next++; chunk < numChunks; chunk = next++) runChunk(chunk);
+        } catch (...) {
+            failures[thread] = std::current_exception();
+            next = numChunks;
+        }
+    };
+    std::vector<std::thread> threads;
+    threads.reserve(failures.size());
+    try {
+        for (std::size_t i = 1; i < failures.size(); ++i) threads.emplace_back(work, i);
+    } catch (std::system_error const&) {
+        // A system that is short of threads gets the same result from fewer.
+    }
+    work(0);
+    for (std::thread& thread : threads) thread.join();
+    for (std::exception_ptr const& failure : failures) {
+        if (failure) std::rethrow_exception(failure);
+    }
+}
+
+}  // namespace v1
+}  // namespace osd_shading

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "osd_shading/subdivisionShading.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "osd_shading/oneShotShading.h"
+
+namespace osd_shading {
+inline namespace v1 {
+
+namespace {
+
+[[noreturn]] void fail(std::string const& text) { throw InvalidControlMesh(text); }
+
+template <typename Real>
+void checkPoints(PointView<Real> const& view, std::size_t count, char const* name, char const* element) {
+    std::string const what = name;
+    if (view.size() != count) {
+        fail(what + " has " + std::to_string(view.size()) + " elements; the mesh needs " + std::to_string(count) +
+             ", one per " + element);
+    }
+    if (view.size() > 0 && view.data() == nullptr) fail(what + ": its pointer is null");
+    if (view.stride() < 3) fail(what + ": its stride is " + std::to_string(view.stride()) + "; give 3 or more");
+    for (std::size_t i = 0; i < count; ++i) {
+        Vec3<Real> const p = view[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            fail(what + ": " + element + " " + std::to_string(i) + " is not finite");
+        }
+    }
+}
+
+template <typename Real>
+void checkPrimvar(PrimvarView<Real> const& view, std::string const& name) {
+    if (view.width() < 1) fail(name + ": its width is " + std::to_string(view.width()) + "; give 1 or more");
+    if (view.stride() < static_cast<std::size_t>(view.width())) {
+        fail(name + ": its stride, " + std::to_string(view.stride()) + ", is less than its width, " +
+             std::to_string(view.width()));
+    }
+    if (view.size() > 0 && view.data() == nullptr) fail(name + ": its pointer is null");
+    if (view.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) fail(name + ": too many values");
+}
+
+/// Conditions on the numbers that hold for either kind of topology.
+template <typename Real>
+void checkInput(ShadingInput<Real> const& input, std::size_t numVertices, std::size_t numFaceCorners,
+                ShadingOptions const& options) {
+    checkPoints(input.positions, numVertices, "positions", "vertex");
+    if (options.startNormals.kind == StartNormalKind::User) {
+        bool const perVertex = !input.vertexNormals.empty(), perCorner = !input.faceVaryingNormals.empty();
+        if (perVertex == perCorner) {
+            fail(perVertex ? "both vertexNormals and faceVaryingNormals are given; give one"
+                           : "user start normals need vertexNormals or faceVaryingNormals; both are empty");
+        }
+        if (perVertex) checkPoints(input.vertexNormals, numVertices, "vertexNormals", "vertex");
+        if (perCorner) checkPoints(input.faceVaryingNormals, numFaceCorners, "faceVaryingNormals", "face corner");
+    }
+    for (std::size_t i = 0; i < input.vertexData.size(); ++i) {
+        std::string const name = "vertexData " + std::to_string(i);
+        checkPrimvar(input.vertexData[i], name);
+        if (input.vertexData[i].size() != numVertices) {
+            fail(name + " has " + std::to_string(input.vertexData[i].size()) + " elements; the mesh has " +
+                 std::to_string(numVertices) + " vertices");
+        }
+    }
+    for (std::size_t i = 0; i < input.faceVaryingData.size(); ++i) {
+        checkPrimvar(input.faceVaryingData[i].values, "faceVaryingData " + std::to_string(i));
+    }
+}
+
+void checkMemory(Sdc::SchemeType scheme, std::size_t numFaces, std::size_t numFaceCorners, std::size_t realSize,
+                 ShadingOptions const& options) {
+    auto const faces = static_cast<std::int64_t>(numFaces), corners = static_cast<std::int64_t>(numFaceCorners);
+    std::uint64_t const bytes = EstimateShadingBytes(scheme, faces, corners, options.level, realSize);
+    double lastFaces = static_cast<double>(faces);
+    if (options.level > 0) {
+        lastFaces = static_cast<double>(scheme == Sdc::SCHEME_CATMARK ? corners : 4 * faces);
+        lastFaces *= std::pow(4.0, options.level - 1);
+    }
+    std::string const takes =
+        "level " + std::to_string(options.level) + " would take about " + std::to_string(bytes) + " bytes";
+    // Masks have up to 6 terms a face, and both they and OpenSubdiv count in 32 bits.
+    if (lastFaces > static_cast<double>(std::numeric_limits<int>::max()) / 6) {
+        throw MemoryLimitExceeded(takes + " and more elements than 32-bit indices can number; use a lower level",
+                                  bytes);
+    }
+    if (options.execution.memoryLimit != 0 && bytes > options.execution.memoryLimit) {
+        throw MemoryLimitExceeded(takes + ", more than the limit of " +
+                                      std::to_string(options.execution.memoryLimit) +
+                                      "; use a lower level or raise the limit",
+                                  bytes);
+    }
+}
+
+}  // namespace
+
+std::uint64_t EstimateShadingBytes(Sdc::SchemeType scheme, std::int64_t numFaces, std::int64_t numFaceCorners,
+                                   int level, std::size_t realSize) {
+    // Measured peaks by face of the last level, rounded up, and by face of the control mesh.
+    bool const isCatmark = scheme == Sdc::SCHEME_CATMARK;
+    double const perFace = isCatmark ? (realSize == 4 ? 620 : 820) : (realSize == 4 ? 460 : 600);
+    double lastFaces = static_cast<double>(numFaces);
+    if (level > 0) {
+        lastFaces = static_cast<double>(isCatmark ? numFaceCorners : 4 * numFaces) * std::pow(4.0, level - 1);
+    }
+    double const bytes = perFace * lastFaces + 500.0 * static_cast<double>(numFaces) + 4e6;
+    constexpr double kMost = 9.2e18;
+    return static_cast<std::uint64_t>(bytes < kMost ? bytes : kMost);
+}
+
+template <typename Real>
+ShadingResult<Real> ShadeSubdivision(ControlMesh const& mesh, ShadingInput<Real> const& input,
+                                     ShadingOptions const& options) {
+    StageClock clock(options.execution.progress);
+    ValidateControlMesh(mesh);
+    bool hasIrregularFaces = false;
+    for (int const size : mesh.faceSizes) hasIrregularFaces |= size != 4;
+    ShadingOptions const resolved = ResolveOptions(options, hasIrregularFaces, mesh.rules.scheme);
+    checkInput(input, static_cast<std::size_t>(mesh.numVertices), mesh.faceVertices.size(), resolved);
+
+    std::vector<ArrayView<int>> indices;
+    std::vector<int> counts;
+    for (std::size_t i = 0; i < input.faceVaryingData.size(); ++i) {
+        FaceVaryingView<Real> const& data = input.faceVaryingData[i];
+        std::string const name = "faceVaryingData " + std::to_string(i);
+        if (data.indices.size() != mesh.faceVertices.size() || data.indices.data() == nullptr) {
+            fail(name + " has " + std::to_string(data.indices.size()) + " indices; the mesh has " +
+                 std::to_string(mesh.faceVertices.size()) + " face corners");
+        }
+        for (std::size_t k = 0; k < data.indices.size(); ++k) {
+            if (data.indices[k] < 0 || static_cast<std::size_t>(data.indices[k]) >= data.values.size()) {
+                fail(name + ": face corner " + std::to_string(k) + " names value " +
+                     std::to_string(data.indices[k]) + "; there are " + std::to_string(data.values.size()));
+            }
+        }
+        indices.push_back(data.indices);
+        counts.push_back(static_cast<int>(data.values.size()));
+    }
+    checkMemory(mesh.rules.scheme, mesh.faceSizes.size(), mesh.faceVertices.size(), sizeof(Real), resolved);
+    clock.End("checks", 0.02);
+
+    RefinedTopology const topology(mesh, resolved.level, indices, counts);
+    clock.End("OpenSubdiv's refining", 0.3);
+    return ShadeOnce(topology, input, resolved, clock);
+}
+
+template <typename Real>
+ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, ShadingInput<Real> const& input,
+                                     ShadingOptions const& options) {
+    StageClock clock(options.execution.progress);
+    ValidateRefiner(refiner);
+    Far::TopologyLevel const base = refiner.GetLevel(0);
+    int const regularSize = refiner.GetSchemeType() == Sdc::SCHEME_CATMARK ? 4 : 3;
+    bool hasIrregularFaces = false;
+    for (int f = 0; f < base.GetNumFaces(); ++f) hasIrregularFaces |= base.GetFaceVertices(f).size() != regularSize;
+    ShadingOptions const resolved = ResolveOptions(options, hasIrregularFaces, refiner.GetSchemeType());
+    auto const numFaceCorners = static_cast<std::size_t>(base.GetNumFaceVertices());
+    checkInput(input, static_cast<std::size_t>(base.GetNumVertices()), numFaceCorners, resolved);
+    for (std::size_t i = 0; i < input.faceVaryingData.size(); ++i) {
+        FaceVaryingView<Real> const& data = input.faceVaryingData[i];
+        int const channel = static_cast<int>(i);
+        std::string const name = "faceVaryingData " + std::to_string(i);
+        if (!data.indices.empty())
+            fail(name + " has indices; those of the refiner's channel are used, leave them empty");
+        if (channel >= base.GetNumFVarChannels()) {
+            fail(name + ": the refiner has only " + std::to_string(base.GetNumFVarChannels()) + " channels");
+        }
+        if (data.values.size() != static_cast<std::size_t>(base.GetNumFVarValues(channel))) {
+            fail(name + " has " + std::to_string(data.values.size()) + " values; the refiner's channel has " +
+                 std::to_string(base.GetNumFVarValues(channel)));
+        }
+    }
+    checkMemory(refiner.GetSchemeType(), static_cast<std::size_t>(base.GetNumFaces()), numFaceCorners, sizeof(Real),
+                resolved);
+    clock.End("checks", 0.02);
+
+    RefinedTopology const topology(refiner, resolved.level);
+    clock.End("OpenSubdiv's refining", 0.3);
+    return ShadeOnce(topology, input, resolved, clock);
+}
+
+#define OSD_SHADING_INSTANTIATE(Real)                                                                            \
+    template OSD_SHADING_API ShadingResult<Real> ShadeSubdivision(ControlMesh const&, ShadingInput<Real> const&, \
+                                                                  ShadingOptions const&);                        \
+    template OSD_SHADING_API ShadingResult<Real> ShadeSubdivision(                                               \
+        Far::TopologyRefiner const&, ShadingInput<Real> const&, ShadingOptions const&);
+OSD_SHADING_INSTANTIATE(float)
+OSD_SHADING_INSTANTIATE(double)
+#undef OSD_SHADING_INSTANTIATE
+
+}  // namespace v1
+}  // namespace osd_shading

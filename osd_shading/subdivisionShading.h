@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// The front door: everything that most users need.
+
+#include <opensubdiv/far/topologyRefiner.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "osd_shading/controlMesh.h"
+#include "osd_shading/errors.h"
+#include "osd_shading/export.h"
+#include "osd_shading/shadingOptions.h"
+#include "osd_shading/shadingResult.h"
+#include "osd_shading/views.h"
+
+namespace osd_shading {
+inline namespace v1 {
+
+namespace Far = OpenSubdiv::OPENSUBDIV_VERSION::Far;
+
+/// A face-varying primvar of the control mesh (UVs).
+template <typename Real>
+struct FaceVaryingView {
+    ArrayView<int>
+        indices;  ///< per face corner: a value. With a TopologyRefiner: empty, channel i is the refiner's
+    PrimvarView<Real> values;
+};
+
+/// The numbers on a control mesh. Views over the caller's memory; only `positions` is needed.
+template <typename Real>
+struct ShadingInput {
+    PointView<Real> positions;  ///< one per control vertex, finite
+
+    PointView<Real> vertexNormals;       ///< StartNormalKind::User: one per control vertex, or
+    PointView<Real> faceVaryingNormals;  ///< one per face corner, in the order of the faces' vertices
+
+    std::vector<PrimvarView<Real>> vertexData;           ///< refined as positions are
+    std::vector<FaceVaryingView<Real>> faceVaryingData;  ///< refined by OpenSubdiv's face-varying rules
+};
+
+/// Shades a control mesh once, level by level.
+///
+///     ShadingInput<float> input;
+///     input.positions = {points.data(), points.size() / 3};
+///     ShadingResult<float> shaded = ShadeSubdivision(mesh, input, PaperPreset(4));
+///
+/// Deterministic: the same bits whatever the number of threads. Reentrant; nothing is kept between calls.
+///
+/// ERRORS: InvalidControlMesh, InvalidOptions, MemoryLimitExceeded, Cancelled; nothing else but std::bad_alloc.
+/// COST: about twice OpenSubdiv's own refining, interpolating and limits, linear in the faces of the last level.
+template <typename Real>
+ShadingResult<Real> ShadeSubdivision(ControlMesh const& mesh, ShadingInput<Real> const& input,
+                                     ShadingOptions const& options = {});
+
+/// The same from an existing refiner, whose level 0, scheme and options are used. It may be refined or not; it is
+/// not modified and must only live as long as the call.
+template <typename Real>
+ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, ShadingInput<Real> const& input,
+                                     ShadingOptions const& options = {});
+
+/// Bytes that `ShadeSubdivision` takes at most for a mesh of `numFaces` faces with `numFaceCorners` corners in all,
+/// in `sizeof(Real)` precision: an estimate from above, linear in the faces of the last level. Saturates.
+OSD_SHADING_API std::uint64_t EstimateShadingBytes(Sdc::SchemeType scheme, std::int64_t numFaces,
+                                                   std::int64_t numFaceCorners, int level, std::size_t realSize);
+
+#define OSD_SHADING_DECLARE(Real)                                              \
+    extern template OSD_SHADING_API ShadingResult<Real> ShadeSubdivision(      \
+        ControlMesh const&, ShadingInput<Real> const&, ShadingOptions const&); \
+    extern template OSD_SHADING_API ShadingResult<Real> ShadeSubdivision(      \
+        Far::TopologyRefiner const&, ShadingInput<Real> const&, ShadingOptions const&);
+OSD_SHADING_DECLARE(float)
+OSD_SHADING_DECLARE(double)
+#undef OSD_SHADING_DECLARE
+
+}  // namespace v1
+}  // namespace osd_shading
