@@ -28,6 +28,8 @@ public:
     /// First value of a vertex; the others follow. Isolated vertices have none.
     int FirstValue(int vertex) const { return _firstValues[static_cast<std::size_t>(vertex)]; }
     int NumVertexValues(int vertex) const { return FirstValue(vertex + 1) - FirstValue(vertex); }
+    /// Whether values are vertices: no vertex is isolated or has several regions.
+    bool HasOneValuePerVertex() const { return _plainFaces.empty() && NumValues() == NumVertices(); }
     VertexKind Kind(int vertex) const { return _kinds[static_cast<std::size_t>(vertex)]; }
     bool IsSharp(int vertex) const { return Kind(vertex) >= VertexKind::Crease; }
 

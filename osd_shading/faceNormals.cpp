@@ -23,6 +23,49 @@ struct VectorSum {
     Vec3<Real> normalized() const { return NormalizedSum(sum, added); }
 };
 
+/// The sides of a face's corner.
+template <typename Real>
+struct CornerSides {
+    Vec3<Real> after, before;
+
+    CornerSides(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face, int corner) {
+        Far::ConstIndexArray const vertices = level.GetFaceVertices(face);
+        int const size = vertices.size();
+        Vec3<Real> const p = points[static_cast<std::size_t>(vertices[corner])];
+        after = points[static_cast<std::size_t>(vertices[(corner + 1) % size])] - p;
+        before = points[static_cast<std::size_t>(vertices[(corner + size - 1) % size])] - p;
+    }
+};
+
+/// What each face round a vertex counts, up to a factor that they share.
+template <typename Real>
+void weighFaces(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int vertex,
+                FaceWeight weight, std::vector<Real>& weights) {
+    Far::ConstIndexArray const faces = level.GetVertexFaces(vertex);
+    Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(vertex);
+    weights.assign(static_cast<std::size_t>(faces.size()), Real(1));
+    if (weight == FaceWeight::Uniform) return;
+    // Areas are taken at the size of the longest side: those of tiny or huge faces leave the range of numbers.
+    Real longest = 0;
+    for (int i = 0; i < faces.size() && weight == FaceWeight::CornerArea; ++i) {
+        CornerSides<Real> const sides(level, points, faces[i], corners[i]);
+        longest = std::fmax(longest, std::fmax(Length(sides.after), Length(sides.before)));
+    }
+    auto const scaled = [](Vec3<Real> const& a, Real size) {
+        return size > 0 ? Vec3<Real>{a.x / size, a.y / size, a.z / size} : a;
+    };
+    for (int i = 0; i < faces.size(); ++i) {
+        CornerSides<Real> const sides(level, points, faces[i], corners[i]);
+        Real& own = weights[static_cast<std::size_t>(i)];
+        if (weight == FaceWeight::CornerArea) {
+            own = Length(Cross(scaled(sides.after, longest), scaled(sides.before, longest)));
+        } else {
+            Vec3<Real> const after = Normalized(sides.after), before = Normalized(sides.before);
+            own = std::atan2(Length(Cross(after, before)), Dot(after, before));
+        }
+    }
+}
+
 }  // namespace
 
 template <typename Real>
@@ -54,26 +97,10 @@ Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real
 }
 
 template <typename Real>
-Real WeightOfFace(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face, int corner,
-                  FaceWeight weight) {
-    if (weight == FaceWeight::Uniform) return 1;
-    Far::ConstIndexArray const vertices = level.GetFaceVertices(face);
-    int const size = vertices.size();
-    Vec3<Real> const p = points[static_cast<std::size_t>(vertices[corner])];
-    Vec3<Real> const after = points[static_cast<std::size_t>(vertices[(corner + 1) % size])] - p;
-    Vec3<Real> const before = points[static_cast<std::size_t>(vertices[(corner + size - 1) % size])] - p;
-    Real const area = Length(Cross(after, before));
-    return weight == FaceWeight::CornerArea ? area : std::atan2(area, Dot(after, before));
-}
-
-template <typename Real>
 Vec3<Real> AverageFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points,
-                             RegionFan const& fan, FaceWeight weight) {
+                             RegionFan const& fan) {
     VectorSum<Real> sum;
-    for (std::size_t i = 0; i < fan.faces.size(); ++i) {
-        sum.add(UnitFaceNormal(level, points, fan.faces[i]),
-                WeightOfFace(level, points, fan.faces[i], fan.corners[i], weight));
-    }
+    for (int const face : fan.faces) sum.add(UnitFaceNormal(level, points, face), Real(1));
     return sum.normalized();
 }
 
@@ -90,15 +117,16 @@ std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const& level, Crea
     std::vector<Vec3<Real>> normals(static_cast<std::size_t>(regions.NumValues()));
     ParallelFor(regions.NumVertices(), numThreads, [&](int begin, int end, int) {
         std::vector<VectorSum<Real>> sums;
+        std::vector<Real> weights;
         for (int v = begin; v < end; ++v) {
             int const first = regions.FirstValue(v);
             sums.assign(static_cast<std::size_t>(regions.NumVertexValues(v)), {});
+            weighFaces(level, points, v, weight, weights);
             Far::ConstIndexArray const faces = level.GetVertexFaces(v);
             Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(v);
             for (int i = 0; i < faces.size(); ++i) {
                 sums[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]) - first)].add(
-                    faceNormals[static_cast<std::size_t>(faces[i])],
-                    WeightOfFace(level, points, faces[i], corners[i], weight));
+                    faceNormals[static_cast<std::size_t>(faces[i])], weights[static_cast<std::size_t>(i)]);
             }
             for (std::size_t i = 0; i < sums.size(); ++i) {
                 normals[static_cast<std::size_t>(first) + i] = sums[i].normalized();
@@ -108,12 +136,11 @@ std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const& level, Crea
     return normals;
 }
 
-#define OSD_SHADING_INSTANTIATE(Real)                                                                            \
-    template Vec3<Real> UnitFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&, int);          \
-    template Real WeightOfFace(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&, int, int, FaceWeight); \
-    template Vec3<Real> AverageFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&,             \
-                                          RegionFan const&, FaceWeight);                                         \
-    template std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const&, CreaseRegions const&,         \
+#define OSD_SHADING_INSTANTIATE(Real)                                                                    \
+    template Vec3<Real> UnitFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&, int);  \
+    template Vec3<Real> AverageFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&,     \
+                                          RegionFan const&);                                             \
+    template std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const&, CreaseRegions const&, \
                                                         std::vector<Vec3<Real>> const&, FaceWeight, int);
 OSD_SHADING_INSTANTIATE(float)
 OSD_SHADING_INSTANTIATE(double)

@@ -18,17 +18,12 @@ enum class FaceWeight { Uniform, CornerArea, Angle };
 template <typename Real>
 Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face);
 
-/// What `face` counts at its corner `corner`.
-template <typename Real>
-Real WeightOfFace(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face, int corner,
-                  FaceWeight weight);
-
 /// The normalised sum of the unit normals of a region's faces; zero where it vanishes.
 template <typename Real>
 Vec3<Real> AverageFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points,
-                             RegionFan const& fan, FaceWeight weight);
+                             RegionFan const& fan);
 
-/// That of every value of a level. [ZBK23] Sec. 2.2
+/// That of every value of a level, each face weighted. [ZBK23] Sec. 2.2
 template <typename Real>
 std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const& level, CreaseRegions const& regions,
                                            std::vector<Vec3<Real>> const& points, FaceWeight weight,

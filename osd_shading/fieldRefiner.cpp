@@ -98,7 +98,7 @@ FieldStep<Real>::FieldStep(RefinedTopology const& topology, int childLevel, Leve
     Far::TopologyLevel const& parentLevel = topology.Level(childLevel - 1);
     Far::TopologyLevel const& level = topology.Level(childLevel);
     int const numVertices = level.GetNumVertices(), firstFaceChild = topology.FirstFaceChild(childLevel - 1);
-    bool const parentIsPlain = parent.NumValues() == parent.NumVertices();
+    bool const parentIsPlain = parent.HasOneValuePerVertex();
 
     // Find the vertices whose mask meets a vertex with several regions, or none.
     std::vector<std::vector<int>> specialOfChunk(static_cast<std::size_t>(NumChunks(numVertices)));

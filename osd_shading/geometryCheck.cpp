@@ -195,11 +195,21 @@ bool isBfrExactAt(RefinedTopology const& topology, Far::TopologyLevel const& lev
     return !(isSmooth && topology.IsCatmark() && level.GetVertexFaces(vertex).size() == 2);
 }
 
-/// Whether Bfr can be asked about a control face: with a corner of interior valence 2 beside a boundary and a
-/// crease, 3.5.0 reads memory that it never set (mended in 3.6.0).
-bool isBfrSafeFor(Far::TopologyLevel const& base, int face) {
+/// Whether Bfr is exact on a control face, and can be asked about it.
+///
+/// With a corner of interior valence 2 beside a boundary and a crease, 3.5.0 reads memory that it never set (mended
+/// in 3.6.0). Under Chaikin's rule sharpness depends on edges beyond the faces round a face, which Bfr does not
+/// see.
+bool isBfrExactOn(RefinedTopology const& topology, int face) {
+    Far::TopologyLevel const& base = topology.Level(0);
+    bool const isChaikin =
+        topology.Refiner().GetSchemeOptions().GetCreasingMethod() == Sdc::Options::CREASE_CHAIKIN;
     for (int const v : base.GetFaceVertices(face)) {
         if (base.GetVertexFaces(v).size() == 2 && !base.IsVertexBoundary(v)) return false;
+        if (!isChaikin) continue;
+        for (int const edge : base.GetVertexEdges(v)) {
+            if (base.IsEdgeSemiSharp(edge)) return false;
+        }
     }
     return true;
 }
@@ -303,7 +313,7 @@ GeometryComparison compareBfr(RefinedTopology const& topology, std::vector<Vec3<
         int const baseFace = baseFaces[static_cast<std::size_t>(f)];
         if (baseFace != current) {
             current = baseFace;
-            isValid = isBfrSafeFor(base, baseFace) && factory.InitVertexSurface(baseFace, &surface);
+            isValid = isBfrExactOn(topology, baseFace) && factory.InitVertexSurface(baseFace, &surface);
             if (isValid) {
                 patchPoints.resize(3 * static_cast<std::size_t>(surface.GetNumPatchPoints()));
                 surface.PreparePatchPoints(&control[0].x, descriptor, patchPoints.data(), descriptor);

@@ -132,7 +132,7 @@ LimitNormals<Real> ComputeLimitNormals(LimitStep<Real> const& step, std::vector<
                     normal = normalOfCorner(level, points, fan.faces[0], fan.corners[0]);
                 }
                 if (!IsZero(normal)) continue;
-                normal = AverageFaceNormal(level, points, fan, FaceWeight::Uniform);
+                normal = AverageFaceNormal(level, points, fan);
                 if (!isAverage || IsZero(normal)) ++counts.numFallbacks;
                 if (IsZero(normal)) counts.missing.push_back(fan.value);
             }

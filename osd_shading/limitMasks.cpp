@@ -200,7 +200,7 @@ template <typename Real>
 LimitStep<Real>::LimitStep(RefinedTopology const& topology, int level, CreaseRegions const& regions, int numThreads)
     : _topology(&topology), _level(&topology.Level(level)), _regions(&regions), _masks(topology, level, regions) {
     int const numVertices = regions.NumVertices();
-    bool const isPlain = regions.NumValues() == numVertices;
+    bool const isPlain = regions.HasOneValuePerVertex();
 
     // Find the vertices in whose faces a vertex has several regions, or none.
     std::vector<std::vector<int>> specialOfChunk(static_cast<std::size_t>(NumChunks(numVertices)));

@@ -29,6 +29,7 @@ Vec3<Real> sphericalMean(Terms<Real> const& terms, std::vector<Vec3<Real>> const
     if (IsZero(mean)) return mean;
     for (int i = 0; i < numSteps; ++i) {
         Vec3<Real> step{};
+        Real counted = 0;
         for (auto const& [value, weight] : terms) {
             Vec3<Real> const& normal = normals[static_cast<std::size_t>(value)];
             if (IsZero(normal)) continue;
@@ -36,10 +37,12 @@ Vec3<Real> sphericalMean(Terms<Real> const& terms, std::vector<Vec3<Real>> const
             Vec3<Real> const across = normal - cosine * mean;
             Real const sine = Length(across);
             if (sine > 0) step += (weight * std::atan2(sine, cosine) / sine) * across;
+            counted += weight;
         }
-        Real const angle = Length(step);
-        if (!(angle > 0)) break;
-        mean = Normalized(std::cos(angle) * mean + (std::sin(angle) / angle) * step);
+        Real const length = Length(step);
+        if (!(length > 0) || !(counted > kVanishing<Real>)) break;
+        Real const angle = length / counted;
+        mean = Normalized(std::cos(angle) * mean + (std::sin(angle) / length) * step);
     }
     return mean;
 }
@@ -93,7 +96,8 @@ std::vector<Vec3<Real>> ComputeSubdividedNormals(SubdividedNormalOptions const& 
             step.Apply(normals, refined, wanted, numThreads);
         }
         if (options.averaging == NormalAveraging::Renormalised) {
-            for (Vec3<Real>& normal : refined) normal = Normalized(normal);
+            // Normals are at most 1 long, so a sum vanishes against 1.
+            for (Vec3<Real>& normal : refined) normal = NormalizedSum(normal, Real(1));
         }
         normals.swap(refined);
     }

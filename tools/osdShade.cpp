@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// The program osd_shade: reads a control mesh, shades it, writes it, and says what it did.
+
+#include <opensubdiv/far/error.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "commandLine.h"
+#include "memory.h"
+#include "osd_shading/geometryCheck.h"
+#include "osd_shading/io/creaseEdits.h"
+#include "osd_shading/io/errors.h"
+#include "osd_shading/io/fileReplacement.h"
+#include "osd_shading/io/objReader.h"
+#include "osd_shading/io/objWriter.h"
+#include "osd_shading/io/plyWriter.h"
+#include "osd_shading/io/sharpReader.h"
+#include "osd_shading/io/usdWriter.h"
+#include "osd_shading/subdivisionShading.h"
+#include "outputTarget.h"
+#include "progressBar.h"
+#include "report.h"
+
+namespace osd_shading::tool {
+
+namespace {
+
+constexpr int kSuccess = 0;
+constexpr int kFailure = 2;
+constexpr int kCheckFailed = 3;
+
+// One line, whatever the text: scripts read it as such.
+void PrintLine(char const* kind, std::string text) {
+    for (char& c : text) {
+        if (c == '\n' || c == '\r') c = ' ';
+    }
+    std::fprintf(stderr, "osd_shade: %s: %s\n", kind, text.c_str());
+}
+
+using StageSeconds = std::vector<std::pair<std::string, double>>;
+
+// Appends, when it ends, the time since it was made.
+class StageTimer {
+public:
+    StageTimer(StageSeconds& seconds, char const* stage) : _seconds(seconds), _stage(stage) {}
+    ~StageTimer() { _seconds.emplace_back(_stage, std::chrono::duration<double>(Clock::now() - _start).count()); }
+    StageTimer(StageTimer const&) = delete;
+    StageTimer& operator=(StageTimer const&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    StageSeconds& _seconds;
+    char const* _stage;
+    Clock::time_point _start = Clock::now();
+};
+
+// Runs `work` as the stage `name`, and returns what it returns.
+template <typename Work>
+auto Timed(StageSeconds& seconds, char const* name, Work const& work) {
+    StageTimer const timer(seconds, name);
+    return work();
+}
+
+io::Model ReadModel(CommandLine const& line) {
+    io::Model model = io::ReadObj(line.modelFile);
+    if (!line.sharpnessFile.empty()) io::ApplySharpFile(line.sharpnessFile, model);
+    if (line.creaseAngle) io::AddCreasesByAngle(model, *line.creaseAngle);
+    if (line.creaseScale) io::ScaleCreases(model, *line.creaseScale);
+
+    bool const lacksUvs = std::find(model.uvIndices.begin(), model.uvIndices.end(), -1) != model.uvIndices.end();
+    if (lacksUvs) {
+        model.warnings.push_back(line.modelFile +
+                                 ": not every face corner has a vt; texture coordinates are left out");
+        model.uvIndices.clear();
+    }
+    return model;
+}
+
+/// A model's numbers in the precision of the run; `input` views them.
+template <typename Real>
+struct RunInput {
+    std::vector<Real> positions, uvs, cornerNormals;
+    ShadingInput<Real> input;
+};
+
+template <typename Real>
+std::vector<Real> Converted(std::vector<double> const& values) {
+    std::vector<Real> converted;
+    converted.reserve(values.size());
+    for (double value : values) converted.push_back(static_cast<Real>(value));
+    return converted;
+}
+
+// The face that holds a corner, for messages; counts from 0, as in the library's.
+std::size_t FaceOfCorner(io::Model const& model, std::size_t corner) {
+    std::size_t face = 0;
+    for (std::size_t end = 0; face < model.faceSizes.size(); ++face) {
+        end += static_cast<std::size_t>(model.faceSizes[face]);
+        if (corner < end) break;
+    }
+    return face;
+}
+
+template <typename Real>
+std::vector<Real> CornerNormals(CommandLine const& line, io::Model const& model) {
+    std::vector<Real> normals;
+    normals.reserve(3 * model.faceVertices.size());
+    for (std::size_t corner = 0; corner < model.faceVertices.size(); ++corner) {
+        int const normal = model.normalIndices.empty() ? -1 : model.normalIndices[corner];
+        if (normal < 0) {
+            throw io::ParseError(line.modelFile, 0,
+                                 "face " + std::to_string(FaceOfCorner(model, corner)) +
+                                     " has a corner without a normal; give every face corner one (f v//vn), or "
+                                     "choose another --start-normals than file");
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            normals.push_back(static_cast<Real>(model.normals[3 * static_cast<std::size_t>(normal) + i]));
+        }
+    }
+    return normals;
+}
+
+template <typename Real>
+RunInput<Real> MakeInput(CommandLine const& line, io::Model const& model) {
+    RunInput<Real> run;
+    run.positions = Converted<Real>(model.positions);
+    run.input.positions = {run.positions.data(), run.positions.size() / 3};
+    if (line.shading.startNormals.kind == StartNormalKind::User) {
+        run.cornerNormals = CornerNormals<Real>(line, model);
+        run.input.faceVaryingNormals = {run.cornerNormals.data(), run.cornerNormals.size() / 3};
+    }
+    if (!model.uvIndices.empty()) {
+        run.uvs = Converted<Real>(model.uvs);
+        run.input.faceVaryingData.push_back({model.uvIndices, {run.uvs.data(), run.uvs.size() / 2, 2}});
+    }
+    return run;
+}
+
+template <typename Real>
+ShadingResult<Real> Shade(CommandLine const& line, ControlMesh const& mesh, ShadingInput<Real> const& input) {
+    ShadingOptions options = line.shading;
+    // Three quarters: the estimate counts what is allocated, not what the allocator and the system add.
+    std::uint64_t const free = FreeMemory();
+    options.execution.memoryLimit = line.memoryLimit.value_or(free - free / 4);
+
+    ProgressBar bar(!line.quiet);
+    if (bar.IsEnabled()) {
+        options.execution.progress = [&bar](double share) {
+            bar.Show(share);
+            return true;
+        };
+    }
+    try {
+        return ShadeSubdivision(mesh, input, options);
+    } catch (InvalidControlMesh const& error) {
+        throw io::ParseError(line.modelFile, 0, error.what());  // the library knows no files
+    }
+}
+
+template <typename Real>
+void WriteResult(CommandLine const& line, io::Model const& model, ControlMesh const& mesh,
+                 ShadingResult<Real> const& result) {
+    DeferredSignals const deferred(line.outputFile);
+    switch (line.format) {
+        case OutputFormat::None:
+            break;
+        case OutputFormat::Ply:
+            io::WritePly(line.outputFile, result, {line.ascii ? io::PlyFormat::Ascii : io::PlyFormat::Binary});
+            break;
+        case OutputFormat::Obj:
+            io::WriteObj(line.outputFile, result);
+            break;
+        case OutputFormat::Usda: {
+            io::UsdOptions options;
+            if (line.cage) {
+                options.cage = &mesh;
+                options.cagePositions = {model.positions.data(), model.positions.size() / 3};
+                if (!model.uvIndices.empty()) {
+                    options.cageUvs = {model.uvIndices, {model.uvs.data(), model.uvs.size() / 2, 2}};
+                }
+            }
+            io::WriteUsd(line.outputFile, result, options);
+            break;
+        }
+    }
+}
+
+void WriteReport(CommandLine const& line, RunSummary const& run) {
+    DeferredSignals const deferred(line.reportFile);
+    std::string const text = JsonText(line, run);
+    io::FileReplacement file(line.reportFile);
+    file.Write(text.data(), text.size());
+    file.Commit();
+}
+
+// OpenSubdiv prints to standard output, where the result may go.
+void PrintOpenSubdivWarning(char const* text) { PrintLine("warning", std::string("OpenSubdiv: ") + text); }
+
+// A reader that went away (| head) has seen enough; any other failure is one.
+void PrintTable(CommandLine const& line, RunSummary const& run) {
+    bool const isOutputTaken = IsStandardOutput(line.outputFile) || IsStandardOutput(line.reportFile);
+    std::FILE* const out = isOutputTaken ? stderr : stdout;
+    std::string const text = TableText(line, run);
+    errno = 0;
+    bool const isPrinted = std::fwrite(text.data(), 1, text.size(), out) == text.size() && std::fflush(out) == 0;
+    if (!isPrinted && errno != EPIPE) {
+        throw io::WriteError("standard output", std::generic_category().message(errno));
+    }
+}
+
+template <typename Real>
+int Run(CommandLine const& line) {
+    RunSummary run;
+
+    // Read the control mesh and its sharpness.
+    io::Model const model = Timed(run.seconds, "reading", [&] { return ReadModel(line); });
+    for (std::string const& warning : model.warnings) PrintLine("warning", warning);
+    run.rules = line.Rules(model);
+    ControlMesh const mesh = model.Mesh(run.rules);
+    RunInput<Real> const input = MakeInput<Real>(line, model);
+
+    // Shade it.
+    ShadingResult<Real> const result = Shade(line, mesh, input.input);
+    run.options = result.options;
+    run.shading = result.report;
+    run.seconds.insert(run.seconds.end(), result.report.seconds.begin(), result.report.seconds.end());
+    if (result.report.maxAngleValue >= 0) {
+        run.maxAngleVertex = result.valueVertices[static_cast<std::size_t>(result.report.maxAngleValue)];
+        Vec3<Real> const& p = result.positions[static_cast<std::size_t>(run.maxAngleVertex)];
+        run.maxAnglePosition = {p.x, p.y, p.z};
+    }
+
+    // Compare it with OpenSubdiv; what fails is written all the same, to be looked at.
+    if (line.check) {
+        run.check = Timed(run.seconds, "geometry check",
+                          [&] { return CheckGeometry(mesh, input.input.positions, result); });
+    }
+
+    // Write it, and say what was done.
+    if (line.format != OutputFormat::None) {
+        Timed(run.seconds, "writing", [&] { WriteResult(line, model, mesh, result); });
+    }
+    run.peakBytes = PeakMemory();
+    if (!line.reportFile.empty()) WriteReport(line, run);
+    if (!line.quiet) PrintTable(line, run);
+    if (run.check && !run.check->Passes(line.tolerance)) {
+        PrintLine("check", "the geometry departs from OpenSubdiv's by more than the tolerance");
+        return kCheckFailed;
+    }
+    return kSuccess;
+}
+
+int RunCommandLine(int argc, char const* const* argv) {
+    std::optional<CommandLine> const line = ParseCommandLine(argc, argv);
+    if (!line) return kSuccess;
+    Far::SetWarningCallback(PrintOpenSubdivWarning);
+    RequireWritable(line->outputFile);
+    RequireWritable(line->reportFile);
+    return line->precision == Precision::Float ? Run<float>(*line) : Run<double>(*line);
+}
+
+}  // namespace
+
+}  // namespace osd_shading::tool
+
+int main(int argc, char** argv) {
+    using osd_shading::tool::kFailure;
+    using osd_shading::tool::PrintLine;
+
+    // A pipe that closes is an error of the write, not the end.
+    signal(SIGPIPE, SIG_IGN);
+    try {
+        return osd_shading::tool::RunCommandLine(argc, argv);
+    } catch (osd_shading::MemoryLimitExceeded const& error) {
+        PrintLine("error", std::string(error.what()) + " (--memory-limit, or what is free)");
+    } catch (std::bad_alloc const&) {
+        PrintLine("error", "out of memory; a lower --level takes a quarter");
+    } catch (std::exception const& error) {
+        PrintLine("error", error.what());
+    }
+    return kFailure;
+}
