@@ -138,7 +138,7 @@ ShadingResult<Real> ShadeSubdivision(ControlMesh const& mesh, ShadingInput<Real>
         counts.push_back(static_cast<int>(data.values.size()));
     }
     checkMemory(mesh.rules.scheme, mesh.faceSizes.size(), mesh.faceVertices.size(), sizeof(Real), resolved);
-    clock.End("checks", 0.02);
+    clock.End("validation", 0.02);
 
     RefinedTopology const topology(mesh, resolved.level, indices, counts);
     clock.End("OpenSubdiv's refining", 0.3);
@@ -173,7 +173,7 @@ ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, Shadin
     }
     checkMemory(refiner.GetSchemeType(), static_cast<std::size_t>(base.GetNumFaces()), numFaceCorners, sizeof(Real),
                 resolved);
-    clock.End("checks", 0.02);
+    clock.End("validation", 0.02);
 
     RefinedTopology const topology(refiner, resolved.level);
     clock.End("OpenSubdiv's refining", 0.3);

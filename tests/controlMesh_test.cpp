@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/sampleSize.h"
 #include "tests/testHelpers.h"
 
 namespace {
@@ -37,7 +38,7 @@ TEST(ControlMesh, EveryShapeIsAccepted) {
 }
 
 TEST(ControlMesh, EveryRandomShapeIsAccepted) {
-    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    for (std::uint64_t seed = 0; seed < SampleSize(50); ++seed) {
         shapes::RandomShapeOptions options;
         options.nonManifold = seed % 2 == 0;
         EXPECT_EQ(ErrorIn(shapes::RandomShape(seed, options)), "no error") << seed;

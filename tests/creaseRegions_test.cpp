@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/sampleSize.h"
 #include "tests/testHelpers.h"
 
 namespace {
@@ -158,7 +159,7 @@ TEST(CreaseRegions, RegionsAreWhatFloodingFinds) {
 }
 
 TEST(CreaseRegions, RegionsOfRandomNonManifoldMeshesAreWhatFloodingFinds) {
-    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    for (std::uint64_t seed = 0; seed < SampleSize(60); ++seed) {
         shapes::RandomShapeOptions options;
         options.nonManifold = true;
         LevelRegions const found(shapes::RandomShape(seed, options), static_cast<int>(seed % 2));

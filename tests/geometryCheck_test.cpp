@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "osd_shading/io/objReader.h"
+#include "tests/sampleSize.h"
 #include "tests/testHelpers.h"
 
 namespace osd_shading::tests {
@@ -28,11 +29,7 @@ GeometryCheck checkShape(Shape const& shape, ShadingOptions const& options) {
 }
 
 // Sanitizers make the sweep ten times slower, and levels 3 and 4 run no other code than 2.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int kLastLevel = 2;
-#else
-constexpr int kLastLevel = 4;
-#endif
+int const kLastLevel = IsSanitizerRun() ? 2 : 4;
 
 std::string describe(GeometryCheck const& check) {
     std::string text;

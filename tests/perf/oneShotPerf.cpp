@@ -33,9 +33,9 @@ namespace {
 using osd_shading::io::Model;
 
 constexpr double kTimeGoal = 2.5, kMemoryGoal = 2;
-// Linear growth keeps the cost per face. Caches and the sizes of the system's pages move it, an n log n or worse
-// would double it again and again over three decades.
-constexpr double kGrowthGoal = 2;
+// Caches and fresh pages make a face dearer in large meshes, also in OpenSubdiv's own run, whose work is linear.
+// What grows faster than linearly would fall behind it further and further over three decades.
+constexpr double kGrowthGoal = 1.5;
 
 struct Options {
     std::string extraModels = OSD_SHADING_EXTRA_MODELS;
@@ -145,7 +145,7 @@ private:
 template <typename Real>
 std::string measureTimes(Case const& what) {
     Contest<Real> const contest(what);
-    constexpr int kFewest = 3, kMost = 41;
+    constexpr int kFewest = 5, kMost = 41;
     constexpr double kEnoughSeconds = 2;
     Series shading, openSubdiv;
     std::vector<std::string> stageNames;
@@ -358,9 +358,10 @@ void growWithFaces(Options const& options, Record& record) {
                 "%.0f to %.0f bytes, %.2f (%.2f)\n",
                 name.c_str(), time.least, time.most, time.Growth(), openSubdivTime.Growth(), memory.least,
                 memory.most, memory.Growth(), openSubdivMemory.Growth());
-            if (time.Growth() > kGrowthGoal) record.Miss("growth of time, " + name, time.Growth(), kGrowthGoal);
-            if (memory.Growth() > kGrowthGoal)
-                record.Miss("growth of memory, " + name, memory.Growth(), kGrowthGoal);
+            double const timeGrowth = time.Growth() / openSubdivTime.Growth();
+            double const memoryGrowth = memory.Growth() / openSubdivMemory.Growth();
+            if (timeGrowth > kGrowthGoal) record.Miss("growth of time, " + name, timeGrowth, kGrowthGoal);
+            if (memoryGrowth > kGrowthGoal) record.Miss("growth of memory, " + name, memoryGrowth, kGrowthGoal);
         }
     }
 }
