@@ -19,7 +19,11 @@ Vec3<Real> BlendNormals(Vec3<Real> const& limitNormal, Vec3<Real> const& subdivi
     Real const share =
         exponent == 1 ? blendWeight : static_cast<Real>(std::pow(static_cast<double>(blendWeight), exponent));
     Vec3<Real> const a = (1 - share) * limitNormal, b = share * subdividedNormal;
-    Vec3<Real> const blended = NormalizedSum(a + b, Length(a) + Length(b));
+    Vec3<Real> const sum = a + b;
+    // Both are at most a rounding longer than 1, so that most sums are settled without their lengths.
+    Real const length = Length(sum);
+    if (length > 4 * kVanishing<Real>) return {sum.x / length, sum.y / length, sum.z / length};
+    Vec3<Real> const blended = NormalizedSum(sum, Length(a) + Length(b));
     return IsZero(blended) ? limitNormal : blended;
 }
 

@@ -155,7 +155,6 @@ GeometryComparison compareLimitNormals(LimitStep<Real> const& limit, OpenSubdivL
     CreaseRegions const& regions = limit.Regions();
     // Where the tangents' product has lost half its digits, two right computations differ more than is tolerated.
     Real const conditioned = std::sqrt(kVanishing<Real>);
-    VertexRing ring;
     for (int v = 0; v < level.GetNumVertices(); ++v) {
         int const side = sideOfTangents(level, regions, v);
         if (side < 0) continue;
@@ -163,10 +162,11 @@ GeometryComparison compareLimitNormals(LimitStep<Real> const& limit, OpenSubdivL
         Vec3<Real> const& tangent1 = theirs.tangents1[i];
         Vec3<Real> const& tangent2 = theirs.tangents2[i];
         Vec3<Real> const normal = Cross<Real>(tangent1, tangent2);
-        ring.Gather(level, v, limit.Topology().IsCatmark());
         Real longest = 0;
-        for (int const u : ring.edgeEnds) {
-            longest = std::max(longest, Length(points[static_cast<std::size_t>(u)] - points[i]));
+        for (int const edge : level.GetVertexEdges(v)) {
+            Far::ConstIndexArray const ends = level.GetEdgeVertices(edge);
+            longest = std::max(longest, Length(points[static_cast<std::size_t>(ends[0])] -
+                                               points[static_cast<std::size_t>(ends[1])]));
         }
         if (!(Length(normal) > conditioned * longest * longest)) continue;
         int const value =

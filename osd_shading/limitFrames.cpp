@@ -14,7 +14,7 @@ namespace {
 /// The unit normal of the tangents that `mask` gives round `vertex`, decided exactly; zero where they are
 /// degenerate.
 template <typename Real>
-Vec3<Real> normalOfDoubtfulTangents(std::vector<Vec3<Real>> const& points, int vertex, VertexRing const& ring,
+Vec3<Real> normalOfDoubtfulTangents(std::vector<Vec3<Real>> const& points, int vertex, int const* ring,
                                     LimitMask<Real> const& mask) {
     Vec3<Real> const origin = points[static_cast<std::size_t>(vertex)];
     Vec3<Real> tangent1{}, tangent2{};
@@ -27,8 +27,8 @@ Vec3<Real> normalOfDoubtfulTangents(std::vector<Vec3<Real>> const& points, int v
         added1 += std::fabs(weights.tangent1) * length;
         added2 += std::fabs(weights.tangent2) * length;
     };
-    for (std::size_t i = 0; i < ring.faceOpposites.size(); ++i) add(ring.faceOpposites[i], mask.faces[i]);
-    for (std::size_t i = 0; i < ring.edgeEnds.size(); ++i) add(ring.edgeEnds[i], mask.edges[i]);
+    for (auto const& weights : mask.faces) add(*ring++, weights);
+    for (auto const& weights : mask.edges) add(*ring++, weights);
     if (!(added1 > 0) || !(added2 > 0)) return {};
     // Scaled first: the product of tiny or huge tangents leaves the range of numbers.
     auto const scaled = [](Vec3<Real> const& a, Real size) {
@@ -39,9 +39,10 @@ Vec3<Real> normalOfDoubtfulTangents(std::vector<Vec3<Real>> const& points, int v
 
 /// The same, settled without a root per neighbour where the tangents are far from degenerate.
 template <typename Real>
-Vec3<Real> normalOfTangents(std::vector<Vec3<Real>> const& points, int vertex, VertexRing const& ring,
+Vec3<Real> normalOfTangents(std::vector<Vec3<Real>> const& points, int vertex, int const* ring,
                             LimitMask<Real> const& mask) {
     Vec3<Real> const origin = points[static_cast<std::size_t>(vertex)];
+    int const* const first = ring;
     Vec3<Real> tangent1{}, tangent2{};
     Real squares = 0;
     // Weights add to zero: differences leave out the vertex itself, and keep what a distant origin would round
@@ -52,8 +53,8 @@ Vec3<Real> normalOfTangents(std::vector<Vec3<Real>> const& points, int vertex, V
         tangent1 += weights.tangent1 * side;
         tangent2 += weights.tangent2 * side;
     };
-    for (std::size_t i = 0; i < ring.faceOpposites.size(); ++i) add(ring.faceOpposites[i], mask.faces[i]);
-    for (std::size_t i = 0; i < ring.edgeEnds.size(); ++i) add(ring.edgeEnds[i], mask.edges[i]);
+    for (auto const& weights : mask.faces) add(*ring++, weights);
+    for (auto const& weights : mask.edges) add(*ring++, weights);
 
     // By Cauchy and Schwarz sum |w| |p - v| is at most the root of (sum w^2) (sum |p - v|^2).
     Vec3<Real> const normal = Cross(tangent1, tangent2);
@@ -63,7 +64,7 @@ Vec3<Real> normalOfTangents(std::vector<Vec3<Real>> const& points, int vertex, V
         Real const inverse = 1 / std::sqrt(squared);
         return inverse * normal;
     }
-    return normalOfDoubtfulTangents(points, vertex, ring, mask);
+    return normalOfDoubtfulTangents(points, vertex, first, mask);
 }
 
 template <typename Real>
@@ -103,7 +104,7 @@ LimitNormals<Real> ComputeLimitNormals(LimitStep<Real> const& step, std::vector<
     std::vector<ChunkCounts> chunks(static_cast<std::size_t>(NumChunks(regions.NumVertices())));
     ParallelFor(regions.NumVertices(), numThreads, [&](int begin, int end, int chunk) {
         ChunkCounts& counts = chunks[static_cast<std::size_t>(chunk)];
-        VertexRing ring;
+        std::vector<int> neighbors;
         std::vector<RegionFan> fans;
         for (int v = begin; v < end; ++v) {
             int const numValues = regions.NumVertexValues(v);
@@ -112,9 +113,9 @@ LimitNormals<Real> ComputeLimitNormals(LimitStep<Real> const& step, std::vector<
 
             // Smooth vertices and darts: their ring, as OpenSubdiv orders it.
             if (kind <= VertexKind::Dart) {
-                ring.Gather(level, v, isCatmark);
+                RingView const whole = step.Ring(v);
                 Vec3<Real>& normal = result.normals[static_cast<std::size_t>(regions.FirstValue(v))];
-                normal = normalOfTangents(points, v, ring, step.Masks().Ring(level.GetVertexFaces(v).size()));
+                normal = normalOfTangents(points, v, whole.vertices, step.RingMask(whole));
                 if (!IsZero(normal)) continue;
             }
 
@@ -125,9 +126,9 @@ LimitNormals<Real> ComputeLimitNormals(LimitStep<Real> const& step, std::vector<
                 bool const isOneFace = fan.faces.size() == 1;
                 bool const isAverage = kind == VertexKind::Corner ? !isOneFace : !fan.isOrdered;
                 if (kind == VertexKind::Crease && fan.isOrdered) {
-                    ring.Gather(level, fan, isCatmark);
-                    normal =
-                        normalOfTangents(points, v, ring, step.Masks().Fan(static_cast<int>(fan.faces.size())));
+                    GatherFan(level, fan, isCatmark, neighbors);
+                    normal = normalOfTangents(points, v, neighbors.data(),
+                                              step.Masks().Fan(static_cast<int>(fan.faces.size())));
                 } else if (kind == VertexKind::Corner && isOneFace) {
                     normal = normalOfCorner(level, points, fan.faces[0], fan.corners[0]);
                 }

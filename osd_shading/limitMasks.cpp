@@ -5,6 +5,7 @@
 #include <opensubdiv/sdc/loopScheme.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "osd_shading/parallel.h"
@@ -84,6 +85,8 @@ std::unique_ptr<LimitMask<Real>> computeMask(Sdc::SchemeType scheme, int numFace
                           rounded(weight(tangent1.faces, tangent1.numFaces, i)),
                           rounded(weight(tangent2.faces, tangent2.numFaces, i))};
     }
+    for (auto const& w : mask->faces) mask->positions.push_back(w.position);
+    for (auto const& w : mask->edges) mask->positions.push_back(w.position);
     Real squares1 = 0, squares2 = 0;
     for (auto const* weights : {&mask->edges, &mask->faces}) {
         for (auto const& w : *weights) {
@@ -129,76 +132,95 @@ LimitMasks<Real>::LimitMasks(RefinedTopology const& topology, int levelIndex, Cr
     }
 }
 
-void VertexRing::Gather(Far::TopologyLevel const& level, int vertex, bool isCatmark) {
-    Far::ConstIndexArray const faces = level.GetVertexFaces(vertex);
-    Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(vertex);
-    int const numFaces = faces.size(), numEdges = level.GetVertexEdges(vertex).size();
-    edgeEnds.resize(static_cast<std::size_t>(numEdges));
-    faceOpposites.resize(isCatmark ? static_cast<std::size_t>(numFaces) : 0);
-    if (isCatmark) {
-        for (int i = 0; i < numFaces; ++i) {
-            Far::ConstIndexArray const vertices = level.GetFaceVertices(faces[i]);
-            edgeEnds[static_cast<std::size_t>(i)] = vertices[(corners[i] + 1) & 3];
-            faceOpposites[static_cast<std::size_t>(i)] = vertices[(corners[i] + 2) & 3];
-        }
-    } else {
-        for (int i = 0; i < numFaces; ++i) {
-            edgeEnds[static_cast<std::size_t>(i)] =
-                level.GetFaceVertices(faces[i])[corners[i] == 2 ? 0 : corners[i] + 1];
-        }
-    }
-    if (numEdges > numFaces && numFaces > 0) {
-        int const corner = corners[numFaces - 1], size = isCatmark ? 4 : 3;
-        edgeEnds.back() = level.GetFaceVertices(faces[numFaces - 1])[corner == 0 ? size - 1 : corner - 1];
-    }
+void GatherFan(Far::TopologyLevel const& level, RegionFan const& fan, bool isCatmark, std::vector<int>& neighbors) {
+    int const size = isCatmark ? 4 : 3;
+    neighbors.clear();
+    auto const append = [&](std::size_t i, int ahead) {
+        neighbors.push_back(level.GetFaceVertices(fan.faces[i])[(fan.corners[i] + ahead) % size]);
+    };
+    for (std::size_t i = 0; i < fan.faces.size() && isCatmark; ++i) append(i, 2);
+    for (std::size_t i = 0; i < fan.faces.size(); ++i) append(i, 1);
+    if (!fan.isClosed) append(fan.faces.size() - 1, size - 1);
 }
 
-void VertexRing::Gather(Far::TopologyLevel const& level, RegionFan const& fan, bool isCatmark) {
-    int const size = isCatmark ? 4 : 3;
-    edgeEnds.clear();
-    faceOpposites.clear();
-    for (std::size_t i = 0; i < fan.faces.size(); ++i) {
-        Far::ConstIndexArray const vertices = level.GetFaceVertices(fan.faces[i]);
-        edgeEnds.push_back(vertices[(fan.corners[i] + 1) % size]);
-        if (isCatmark) faceOpposites.push_back(vertices[(fan.corners[i] + 2) % size]);
+template <typename Real>
+void LimitStep<Real>::gatherRings(int numThreads) {
+    int const numVertices = _regions->NumVertices();
+    _ringOffsets.resize(static_cast<std::size_t>(numVertices) + 1);
+    std::uint32_t numNeighbors = 0;
+    for (int v = 0; v < numVertices; ++v) {
+        int const numFaces = _level->GetVertexFaces(v).size();
+        VertexKind const kind = _regions->Kind(v);
+        if (numFaces > 0 && kind != VertexKind::Corner) {
+            // The mask of a crease names its two sharp edges and is the same for every fan.
+            numNeighbors +=
+                kind == VertexKind::Crease ? 2U : static_cast<std::uint32_t>(numFaces) * (_isCatmark ? 2 : 1);
+        }
+        _ringOffsets[static_cast<std::size_t>(v) + 1] = numNeighbors;
     }
-    if (!fan.isClosed) {
-        edgeEnds.push_back(level.GetFaceVertices(fan.faces.back())[(fan.corners.back() + size - 1) % size]);
-    }
+    _ringVertices.resize(numNeighbors);
+    ParallelFor(numVertices, numThreads, [&](int begin, int end, int) {
+        for (int v = begin; v < end; ++v) {
+            int const size = Ring(v).size;
+            if (size == 0) continue;
+            int* ring = _ringVertices.data() + _ringOffsets[static_cast<std::size_t>(v)];
+            if (_regions->Kind(v) == VertexKind::Crease) {
+                for (int const edge : _level->GetVertexEdges(v)) {
+                    if (!IsSharpEdge(*_level, edge)) continue;
+                    Far::ConstIndexArray const ends = _level->GetEdgeVertices(edge);
+                    *ring++ = ends[0] == v ? ends[1] : ends[0];
+                }
+                assert(ring == Ring(v).vertices + 2);  // OpenSubdiv calls a vertex a crease for just two
+                continue;
+            }
+            Far::ConstIndexArray const faces = _level->GetVertexFaces(v);
+            Far::ConstLocalIndexArray const corners = _level->GetVertexFaceLocalIndices(v);
+            if (_isCatmark) {
+                int const numFaces = faces.size();
+                for (int i = 0; i < numFaces; ++i) {
+                    Far::ConstIndexArray const vertices = _level->GetFaceVertices(faces[i]);
+                    ring[i] = vertices[(corners[i] + 2) & 3];
+                    ring[numFaces + i] = vertices[(corners[i] + 1) & 3];
+                }
+            } else {
+                for (int i = 0; i < size; ++i) {
+                    ring[i] = _level->GetFaceVertices(faces[i])[corners[i] == 2 ? 0 : corners[i] + 1];
+                }
+            }
+        }
+    });
 }
 
 template <typename Real>
 template <typename Visit>
-void LimitStep<Real>::forEachVertexTerm(int vertex, VertexRing& ring, Visit const& visit) const {
-    int const numFaces = _level->GetVertexFaces(vertex).size();
-    VertexKind const kind = _regions->Kind(vertex);
-    if (numFaces == 0 || kind == VertexKind::Corner) {
+void LimitStep<Real>::forEachVertexTerm(int vertex, Visit const& visit) const {
+    RingView const ring = Ring(vertex);
+    if (ring.size == 0) {
         visit(vertex, Real(1));
         return;
     }
-    if (kind == VertexKind::Crease) {
-        // The mask of a crease names its two sharp edges and is the same for every fan.
-        LimitMask<Real> const& mask = _masks.Fan(1);
-        for (int const edge : _level->GetVertexEdges(vertex)) {
-            if (!IsSharpEdge(*_level, edge)) continue;
-            Far::ConstIndexArray const ends = _level->GetEdgeVertices(edge);
-            visit(ends[0] == vertex ? ends[1] : ends[0], mask.edges[0].position);
-        }
-        visit(vertex, mask.vertex.position);
-        return;
+    LimitMask<Real> const* mask;
+    Real const* weights;
+    if (_regions->Kind(vertex) == VertexKind::Crease) {
+        mask = &_masks.Fan(1);
+        // Both ends weigh the same; its face has no weight.
+        weights = mask->positions.data() + mask->faces.size();
+    } else {
+        mask = &RingMask(ring);
+        weights = mask->positions.data();
     }
-    ring.Gather(*_level, vertex, _topology->IsCatmark());
-    LimitMask<Real> const& mask = _masks.Ring(numFaces);
-    for (std::size_t i = 0; i < ring.faceOpposites.size(); ++i) {
-        visit(ring.faceOpposites[i], mask.faces[i].position);
-    }
-    for (std::size_t i = 0; i < ring.edgeEnds.size(); ++i) visit(ring.edgeEnds[i], mask.edges[i].position);
-    visit(vertex, mask.vertex.position);
+    for (int i = 0; i < ring.size; ++i) visit(ring.vertices[i], weights[i]);
+    visit(vertex, mask->vertex.position);
 }
 
 template <typename Real>
 LimitStep<Real>::LimitStep(RefinedTopology const& topology, int level, CreaseRegions const& regions, int numThreads)
-    : _topology(&topology), _level(&topology.Level(level)), _regions(&regions), _masks(topology, level, regions) {
+    : _topology(&topology),
+      _level(&topology.Level(level)),
+      _regions(&regions),
+      _masks(topology, level, regions),
+      _isCatmark(topology.IsCatmark()) {
+    gatherRings(numThreads);
     int const numVertices = regions.NumVertices();
     bool const isPlain = regions.HasOneValuePerVertex();
 
@@ -215,7 +237,6 @@ LimitStep<Real>::LimitStep(RefinedTopology const& topology, int level, CreaseReg
     });
 
     std::unique_ptr<RegionRule<Real>> rule;
-    VertexRing ring;
     std::vector<int> faces;
     for (std::vector<int> const& special : specialOfChunk) {
         if (special.empty()) continue;
@@ -227,7 +248,7 @@ LimitStep<Real>::LimitStep(RefinedTopology const& topology, int level, CreaseReg
             _isSpecial[static_cast<std::size_t>(v)] = 1;
             if (regions.NumVertexValues(v) == 0) continue;
             rule->Clear();
-            forEachVertexTerm(v, ring, [&](int u, Real weight) { rule->AddVertex(u, weight); });
+            forEachVertexTerm(v, [&](int u, Real weight) { rule->AddVertex(u, weight); });
             Far::ConstIndexArray const vertexFaces = _level->GetVertexFaces(v);
             Far::ConstLocalIndexArray const corners = _level->GetVertexFaceLocalIndices(v);
             for (int i = 0; i < regions.NumVertexValues(v); ++i) {
@@ -247,11 +268,9 @@ void LimitStep<Real>::ApplyToPoints(std::vector<Vec3<Real>> const& points, std::
                                     int numThreads) const {
     limits.resize(points.size());
     ParallelFor(_regions->NumVertices(), numThreads, [&](int begin, int end, int) {
-        VertexRing ring;
         for (int v = begin; v < end; ++v) {
             Vec3<Real> sum{};
-            forEachVertexTerm(v, ring,
-                              [&](int u, Real weight) { sum += weight * points[static_cast<std::size_t>(u)]; });
+            forEachVertexTerm(v, [&](int u, Real weight) { sum += weight * points[static_cast<std::size_t>(u)]; });
             limits[static_cast<std::size_t>(v)] = sum;
         }
     });
@@ -276,13 +295,12 @@ void LimitStep<Real>::Apply(std::vector<T> const& field, std::vector<T>& limits,
         }
     });
     ParallelFor(_regions->NumVertices(), numThreads, [&](int begin, int end, int) {
-        VertexRing ring;
         for (int v = begin; v < end; ++v) {
             if (isSpecial(v)) continue;
             int const value = _regions->FirstValue(v);
             if (!isNeeded(value)) continue;
             T sum{};
-            forEachVertexTerm(v, ring, [&](int u, Real weight) {
+            forEachVertexTerm(v, [&](int u, Real weight) {
                 sum += weight * field[static_cast<std::size_t>(_regions->FirstValue(u))];
             });
             limits[static_cast<std::size_t>(value)] = sum;
@@ -299,11 +317,9 @@ void LimitStep<Real>::MarkSources(ValueMarks const& marks, ValueMarks& sources) 
             sources[static_cast<std::size_t>(_special.values[static_cast<std::size_t>(t)])] = 1;
         }
     }
-    VertexRing ring;
     for (int v = 0; v < _regions->NumVertices(); ++v) {
         if (isSpecial(v) || !marks[static_cast<std::size_t>(_regions->FirstValue(v))]) continue;
-        forEachVertexTerm(v, ring,
-                          [&](int u, Real) { sources[static_cast<std::size_t>(_regions->FirstValue(u))] = 1; });
+        forEachVertexTerm(v, [&](int u, Real) { sources[static_cast<std::size_t>(_regions->FirstValue(u))] = 1; });
     }
 }
 
@@ -318,9 +334,7 @@ void LimitStep<Real>::AppendTerms(int vertex, int value, std::vector<std::pair<i
         }
         return;
     }
-    VertexRing ring;
-    forEachVertexTerm(vertex, ring,
-                      [&](int u, Real weight) { terms.emplace_back(_regions->FirstValue(u), weight); });
+    forEachVertexTerm(vertex, [&](int u, Real weight) { terms.emplace_back(_regions->FirstValue(u), weight); });
 }
 
 #define OSD_SHADING_INSTANTIATE(Real)                                                                          \

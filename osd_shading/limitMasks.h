@@ -3,6 +3,7 @@
 
 // Internal: not installed, not for users.
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -23,6 +24,8 @@ struct LimitMask {
     std::vector<Weights> edges;  ///< far ends of the fan's edges, counter-clockwise
     std::vector<Weights> faces;  ///< opposite vertices of its quads; empty in Loop
     Real tangentNorms = 0;       ///< product of the tangent masks' lengths, without the vertex
+
+    std::vector<Real> positions;  ///< position weights alone, in the order of a RingView
 };
 
 /// The masks of every fan that a level holds: full rings, and fans between two sharp edges. [Sdc::Scheme]
@@ -38,15 +41,15 @@ private:
     std::vector<std::unique_ptr<LimitMask<Real>>> _rings, _fans;
 };
 
-/// The vertices round a vertex, or of a fan at it: far ends of edges, then vertices opposite in quads.
-struct VertexRing {
-    std::vector<int> edgeEnds;
-    std::vector<int> faceOpposites;
-
-    /// The whole ring of a manifold vertex, from OpenSubdiv's own start.
-    void Gather(Far::TopologyLevel const& level, int vertex, bool isCatmark);
-    void Gather(Far::TopologyLevel const& level, RegionFan const& fan, bool isCatmark);
+/// The neighbours of one vertex in the order in which masks sum them: vertices opposite in quads, then the far ends
+/// of edges.
+struct RingView {
+    int const* vertices;
+    int size;
 };
+
+/// The neighbours of a fan's vertex among its faces, in that order. Reuses the memory of `neighbors`.
+void GatherFan(Far::TopologyLevel const& level, RegionFan const& fan, bool isCatmark, std::vector<int>& neighbors);
 
 /// The limit step at one level: what is sharp there counts as infinitely sharp.
 template <typename Real>
@@ -70,21 +73,37 @@ public:
     /// Appends the terms (value, weight) of the limit of `value`, one of `vertex`.
     void AppendTerms(int vertex, int value, std::vector<std::pair<int, Real>>& terms) const;
 
+    /// The neighbours that the limit position of `vertex` is made of: the whole ring of a smooth vertex or dart,
+    /// the far ends of its two sharp edges on a crease, none at a corner.
+    RingView Ring(int vertex) const {
+        auto const v = static_cast<std::size_t>(vertex);
+        return {_ringVertices.data() + _ringOffsets[v], static_cast<int>(_ringOffsets[v + 1] - _ringOffsets[v])};
+    }
+    /// The mask of a whole ring. REQUIRES: `vertex` is smooth or a dart, and not isolated.
+    LimitMask<Real> const& RingMask(RingView const& ring) const {
+        return _masks.Ring(_isCatmark ? ring.size / 2 : ring.size);
+    }
+
     LimitMasks<Real> const& Masks() const { return _masks; }
     CreaseRegions const& Regions() const { return *_regions; }
     RefinedTopology const& Topology() const { return *_topology; }
     Far::TopologyLevel const& Level() const { return *_level; }
 
 private:
+    void gatherRings(int numThreads);
     /// Calls `visit(vertex, weight)` for each term of a vertex's limit position.
     template <typename Visit>
-    void forEachVertexTerm(int vertex, VertexRing& ring, Visit const& visit) const;
+    void forEachVertexTerm(int vertex, Visit const& visit) const;
     bool isSpecial(int vertex) const { return !_isSpecial.empty() && _isSpecial[static_cast<std::size_t>(vertex)]; }
 
     RefinedTopology const* _topology;
     Far::TopologyLevel const* _level;
     CreaseRegions const* _regions;
     LimitMasks<Real> _masks;
+    bool _isCatmark;
+    // Every limit and every normal asks for these: gathered once.
+    std::vector<std::uint32_t> _ringOffsets;  // by vertex, and one more
+    std::vector<int> _ringVertices;
     ValueRows<Real> _special;
     std::vector<unsigned char> _isSpecial;  // per vertex; empty: none is
 };

@@ -234,7 +234,9 @@ void blend(ShadingOptions const& options, std::vector<int> const& missing, Shadi
             if (b > 0 || isMissing) {
                 Real const length = Length(subdivided);
                 // Weights and normals are at most 1, so a sum vanishes against 1.
-                subdivided = NormalizedSum(subdivided, Real(1));
+                subdivided = length > kVanishing<Real>
+                                 ? Vec3<Real>{subdivided.x / length, subdivided.y / length, subdivided.z / length}
+                                 : Vec3<Real>{};
                 ++counts.subdivided;
                 if (b > 0 && (counts.shortest < 0 || static_cast<double>(length) < counts.shortest)) {
                     counts.shortest = static_cast<double>(length);

@@ -46,7 +46,6 @@ void checkPrimvar(PrimvarView<Real> const& view, std::string const& name) {
 template <typename Real>
 void checkInput(ShadingInput<Real> const& input, std::size_t numVertices, std::size_t numFaceCorners,
                 ShadingOptions const& options) {
-    checkPoints(input.positions, numVertices, "positions", "vertex");
     if (options.startNormals.kind == StartNormalKind::User) {
         bool const perVertex = !input.vertexNormals.empty(), perCorner = !input.faceVaryingNormals.empty();
         if (perVertex == perCorner) {
@@ -69,19 +68,26 @@ void checkInput(ShadingInput<Real> const& input, std::size_t numVertices, std::s
     }
 }
 
-void checkMemory(Sdc::SchemeType scheme, std::size_t numFaces, std::size_t numFaceCorners, std::size_t realSize,
-                 ShadingOptions const& options) {
-    auto const faces = static_cast<std::int64_t>(numFaces), corners = static_cast<std::int64_t>(numFaceCorners);
-    std::uint64_t const bytes = EstimateShadingBytes(scheme, faces, corners, options.level, realSize);
-    double lastFaces = static_cast<double>(faces);
-    if (options.level > 0) {
-        lastFaces = static_cast<double>(scheme == Sdc::SCHEME_CATMARK ? corners : 4 * faces);
-        lastFaces *= std::pow(4.0, options.level - 1);
-    }
+template <typename Real>
+void addPrimvars(ShadingInput<Real> const& input, MeshSize& size) {
+    size.numFaceVarying = static_cast<std::int64_t>(input.faceVaryingData.size());
+    for (FaceVaryingView<Real> const& data : input.faceVaryingData) size.faceVaryingWidth += data.values.width();
+    for (PrimvarView<Real> const& data : input.vertexData) size.vertexDataWidth += data.width();
+}
+
+double numFacesAt(MeshSize const& size, int level) {
+    if (level == 0) return static_cast<double>(size.numFaces);
+    double const first = size.scheme == Sdc::SCHEME_CATMARK ? static_cast<double>(size.numFaceCorners)
+                                                            : 4 * static_cast<double>(size.numFaces);
+    return first * std::pow(4.0, level - 1);
+}
+
+void checkMemory(MeshSize const& size, std::size_t realSize, ShadingOptions const& options) {
+    std::uint64_t const bytes = EstimateShadingBytes(size, options.level, realSize);
     std::string const takes =
         "level " + std::to_string(options.level) + " would take about " + std::to_string(bytes) + " bytes";
     // Masks have up to 6 terms a face, and both they and OpenSubdiv count in 32 bits.
-    if (lastFaces > static_cast<double>(std::numeric_limits<int>::max()) / 6) {
+    if (numFacesAt(size, options.level) > static_cast<double>(std::numeric_limits<int>::max()) / 6) {
         throw MemoryLimitExceeded(takes + " and more elements than 32-bit indices can number; use a lower level",
                                   bytes);
     }
@@ -95,16 +101,22 @@ void checkMemory(Sdc::SchemeType scheme, std::size_t numFaces, std::size_t numFa
 
 }  // namespace
 
-std::uint64_t EstimateShadingBytes(Sdc::SchemeType scheme, std::int64_t numFaces, std::int64_t numFaceCorners,
-                                   int level, std::size_t realSize) {
-    // Measured peaks by face of the last level, rounded up, and by face of the control mesh.
-    bool const isCatmark = scheme == Sdc::SCHEME_CATMARK;
-    double const perFace = isCatmark ? (realSize == 4 ? 620 : 820) : (realSize == 4 ? 460 : 600);
-    double lastFaces = static_cast<double>(numFaces);
-    if (level > 0) {
-        lastFaces = static_cast<double>(isCatmark ? numFaceCorners : 4 * numFaces) * std::pow(4.0, level - 1);
-    }
-    double const bytes = perFace * lastFaces + 500.0 * static_cast<double>(numFaces) + 4e6;
+std::uint64_t EstimateShadingBytes(MeshSize const& size, int level, std::size_t realSize) {
+    // Peaks measured by tests/perf, rounded up: bytes by face of the last level, ...
+    bool const isFloat = realSize <= sizeof(float), isCatmark = size.scheme == Sdc::SCHEME_CATMARK;
+    double perFace = isCatmark ? (isFloat ? 560 : 655) : (isFloat ? 385 : 440);
+    perFace +=
+        110.0 * static_cast<double>(size.numFaceVarying) +
+        3.0 * static_cast<double>(realSize) * static_cast<double>(size.faceVaryingWidth + size.vertexDataWidth);
+    // ... by edge of the last level on a crease, and on what may be a boundary, ...
+    double const perCreaseEdge = isFloat ? 900 : 1300, perBoundaryEdge = isFloat ? 60 : 100;
+    double const edges = std::pow(2.0, level);
+    // ... and by vertex of each level where it may be isolated.
+    double const perVertex = 130.0 * (level + 2);
+    double const bytes = perFace * numFacesAt(size, level) +
+                         perCreaseEdge * edges * static_cast<double>(size.numCreases) +
+                         perBoundaryEdge * edges * static_cast<double>(size.numFaceCorners) +
+                         perVertex * static_cast<double>(size.numVertices) + 2e6;
     constexpr double kMost = 9.2e18;
     return static_cast<std::uint64_t>(bytes < kMost ? bytes : kMost);
 }
@@ -113,6 +125,10 @@ template <typename Real>
 ShadingResult<Real> ShadeSubdivision(ControlMesh const& mesh, ShadingInput<Real> const& input,
                                      ShadingOptions const& options) {
     StageClock clock(options.execution.progress);
+    // Before anything is sized by it: a number of vertices without their points is a mistake.
+    if (mesh.numVertices > 0) {
+        checkPoints(input.positions, static_cast<std::size_t>(mesh.numVertices), "positions", "vertex");
+    }
     ValidateControlMesh(mesh);
     bool hasIrregularFaces = false;
     for (int const size : mesh.faceSizes) hasIrregularFaces |= size != 4;
@@ -137,7 +153,14 @@ ShadingResult<Real> ShadeSubdivision(ControlMesh const& mesh, ShadingInput<Real>
         indices.push_back(data.indices);
         counts.push_back(static_cast<int>(data.values.size()));
     }
-    checkMemory(mesh.rules.scheme, mesh.faceSizes.size(), mesh.faceVertices.size(), sizeof(Real), resolved);
+    MeshSize size;
+    size.scheme = mesh.rules.scheme;
+    size.numVertices = mesh.numVertices;
+    size.numFaces = static_cast<std::int64_t>(mesh.faceSizes.size());
+    size.numFaceCorners = static_cast<std::int64_t>(mesh.faceVertices.size());
+    size.numCreases = static_cast<std::int64_t>(mesh.creaseSharpness.size());
+    addPrimvars(input, size);
+    checkMemory(size, sizeof(Real), resolved);
     clock.End("validation", 0.02);
 
     RefinedTopology const topology(mesh, resolved.level, indices, counts);
@@ -156,6 +179,7 @@ ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, Shadin
     for (int f = 0; f < base.GetNumFaces(); ++f) hasIrregularFaces |= base.GetFaceVertices(f).size() != regularSize;
     ShadingOptions const resolved = ResolveOptions(options, hasIrregularFaces, refiner.GetSchemeType());
     auto const numFaceCorners = static_cast<std::size_t>(base.GetNumFaceVertices());
+    checkPoints(input.positions, static_cast<std::size_t>(base.GetNumVertices()), "positions", "vertex");
     checkInput(input, static_cast<std::size_t>(base.GetNumVertices()), numFaceCorners, resolved);
     for (std::size_t i = 0; i < input.faceVaryingData.size(); ++i) {
         FaceVaryingView<Real> const& data = input.faceVaryingData[i];
@@ -171,8 +195,16 @@ ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, Shadin
                  std::to_string(base.GetNumFVarValues(channel)));
         }
     }
-    checkMemory(refiner.GetSchemeType(), static_cast<std::size_t>(base.GetNumFaces()), numFaceCorners, sizeof(Real),
-                resolved);
+    MeshSize size;
+    size.scheme = refiner.GetSchemeType();
+    size.numVertices = base.GetNumVertices();
+    size.numFaces = base.GetNumFaces();
+    size.numFaceCorners = base.GetNumFaceVertices();
+    for (int e = 0; e < base.GetNumEdges(); ++e) {
+        size.numCreases += base.GetEdgeSharpness(e) > 0 && !base.IsEdgeBoundary(e);
+    }
+    addPrimvars(input, size);
+    checkMemory(size, sizeof(Real), resolved);
     clock.End("validation", 0.02);
 
     RefinedTopology const topology(refiner, resolved.level);

@@ -61,10 +61,21 @@ template <typename Real>
 ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, ShadingInput<Real> const& input,
                                      ShadingOptions const& options = {});
 
-/// Bytes that `ShadeSubdivision` takes at most for a mesh of `numFaces` faces with `numFaceCorners` corners in all,
-/// in `sizeof(Real)` precision: an estimate from above, linear in the faces of the last level. Saturates.
-OSD_SHADING_API std::uint64_t EstimateShadingBytes(Sdc::SchemeType scheme, std::int64_t numFaces,
-                                                   std::int64_t numFaceCorners, int level, std::size_t realSize);
+/// What the memory of a run depends on, besides level and precision: counts of the control mesh.
+struct MeshSize {
+    Sdc::SchemeType scheme = Sdc::SCHEME_CATMARK;
+    std::int64_t numVertices = 0;
+    std::int64_t numFaces = 0;
+    std::int64_t numFaceCorners = 0;
+    std::int64_t numCreases = 0;        ///< interior edges with a sharpness
+    std::int64_t numFaceVarying = 0;    ///< face-varying channels
+    std::int64_t faceVaryingWidth = 0;  ///< numbers per value, over all of them
+    std::int64_t vertexDataWidth = 0;   ///< numbers per vertex, over all vertex primvars
+};
+
+/// Bytes that `ShadeSubdivision` takes at most, with numbers of `realSize` bytes: an estimate from above, some 5 to
+/// 30% over what was measured. Grows with the faces of the last level; saturates.
+OSD_SHADING_API std::uint64_t EstimateShadingBytes(MeshSize const& size, int level, std::size_t realSize);
 
 #define OSD_SHADING_DECLARE(Real)                                              \
     extern template OSD_SHADING_API ShadingResult<Real> ShadeSubdivision(      \

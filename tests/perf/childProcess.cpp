@@ -12,6 +12,10 @@
 #include <fstream>
 #include <stdexcept>
 
+#ifdef __GLIBC__
+#    include <malloc.h>
+#endif
+
 namespace perf {
 
 namespace {
@@ -92,6 +96,20 @@ double ProcessorSeconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void ReturnFreedMemory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
+void KeepFreedMemory() {
+#ifdef __GLIBC__
+    constexpr int kNever = 2'000'000'000;
+    mallopt(M_TRIM_THRESHOLD, kNever);
+    mallopt(M_MMAP_MAX, 0);
+#endif
 }
 
 }  // namespace perf

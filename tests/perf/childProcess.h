@@ -23,4 +23,16 @@ std::uint64_t AvailableBytes();
 /// Processor time of this process in seconds, all threads: other processes disturb it less than they do wall time.
 double ProcessorSeconds();
 
+/// What a run finds in the heap. Left alone, the smaller of two alternating runs gets the other's memory for
+/// nothing, and whether it does depends on the sizes.
+enum class HeapState {
+    Cold,  ///< nothing: each run takes fresh pages from the system, as in a program that shades once
+    Warm   ///< all it needs: the cost of computing alone
+};
+
+/// Gives the heap's free pages back to the system (glibc; elsewhere nothing).
+void ReturnFreedMemory();
+/// From now on the heap keeps what is freed (glibc; elsewhere nothing).
+void KeepFreedMemory();
+
 }  // namespace perf

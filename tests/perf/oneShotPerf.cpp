@@ -40,6 +40,7 @@ constexpr double kGrowthGoal = 1.5;
 struct Options {
     std::string extraModels = OSD_SHADING_EXTRA_MODELS;
     std::string csvFile;
+    HeapState heap = HeapState::Cold;
     bool isQuick = false, isLarge = false, showsStages = false;
 };
 
@@ -56,8 +57,13 @@ struct Case {
         return static_cast<std::int64_t>(count) << (2 * (level - 1));
     }
     std::uint64_t Estimate() const {
-        return osd_shading::EstimateShadingBytes(
-            scheme, model->NumFaces(), static_cast<std::int64_t>(model->faceVertices.size()), level, realSize);
+        osd_shading::MeshSize size;
+        size.scheme = scheme;
+        size.numVertices = model->NumVertices();
+        size.numFaces = model->NumFaces();
+        size.numFaceCorners = static_cast<std::int64_t>(model->faceVertices.size());
+        size.numCreases = static_cast<std::int64_t>(model->creaseSharpness.size());
+        return osd_shading::EstimateShadingBytes(size, level, realSize);
     }
     std::string Name() const {
         return model->name + (IsCatmark() ? " catmark " : " loop ") + (realSize == 4 ? "float" : "double") +
@@ -143,27 +149,31 @@ private:
 
 /// Times both in turn, as often as it takes, and returns the medians as text.
 template <typename Real>
-std::string measureTimes(Case const& what) {
+std::string measureTimes(Case const& what, HeapState heap) {
+    if (heap == HeapState::Warm) KeepFreedMemory();
     Contest<Real> const contest(what);
-    constexpr int kFewest = 5, kMost = 41;
+    constexpr int kFewest = 5, kMost = 41;  // and one before them
     constexpr double kEnoughSeconds = 2;
     Series shading, openSubdiv;
     std::vector<std::string> stageNames;
     std::map<std::string, std::vector<double>> stages;
     double total = 0;
-    for (int run = 0; run < kFewest || (run < kMost && total < kEnoughSeconds); ++run) {
+    for (int run = 0; run <= kFewest || (run < kMost && total < kEnoughSeconds); ++run) {
         std::vector<std::pair<std::string, double>> runStages;
+        if (heap == HeapState::Cold) ReturnFreedMemory();
         Seconds const ours = timeOf([&] {
             auto result = contest.Shade();
             runStages = result.report.seconds;
             return result;
         });
+        if (heap == HeapState::Cold) ReturnFreedMemory();
         Seconds const theirs = timeOf([&] { return contest.OpenSubdiv(); });
+        if (run == 0) continue;  // warms code, and memory where that is wanted
         total += ours.wall + theirs.wall;
         shading.Add(ours);
         openSubdiv.Add(theirs);
         for (auto const& [name, seconds] : runStages) {
-            if (run == 0) stageNames.push_back(name);
+            if (stages[name].empty()) stageNames.push_back(name);
             stages[name].push_back(seconds);
         }
     }
@@ -179,7 +189,7 @@ std::string measureTimes(Case const& what) {
 }
 
 template <typename Real>
-Cost measureAs(Case const& what) {
+Cost measureAs(Case const& what, HeapState heap) {
     auto const run = [](std::function<std::string()> const& work) {
         ChildOutcome outcome = RunInChild(work);
         if (!outcome.succeeded) throw std::runtime_error(outcome.text);
@@ -198,7 +208,7 @@ Cost measureAs(Case const& what) {
     cost.shadingBytes = peakOf([](Contest<Real> const& contest) { contest.Shade(); }) - idle;
     cost.openSubdivBytes = peakOf([](Contest<Real> const& contest) { contest.OpenSubdiv(); }) - idle;
 
-    std::istringstream text(run([&] { return measureTimes<Real>(what); }).text);
+    std::istringstream text(run([&] { return measureTimes<Real>(what, heap); }).text);
     text >> cost.shadingTime.wall >> cost.shadingTime.processor >> cost.openSubdivTime.wall >>
         cost.openSubdivTime.processor >> cost.numRuns;
     double seconds = 0;
@@ -209,7 +219,7 @@ Cost measureAs(Case const& what) {
 }
 
 /// Measures, or says on the table why not.
-std::optional<Cost> measure(Case const& what) {
+std::optional<Cost> measure(Case const& what, HeapState heap) {
     double const estimate = static_cast<double>(what.Estimate());
     if (estimate > 0.8 * static_cast<double>(AvailableBytes())) {
         std::printf("%-32s left out: it may take %.0f MB, more than there is\n", what.Name().c_str(),
@@ -217,7 +227,7 @@ std::optional<Cost> measure(Case const& what) {
         return std::nullopt;
     }
     try {
-        return what.realSize == sizeof(float) ? measureAs<float>(what) : measureAs<double>(what);
+        return what.realSize == sizeof(float) ? measureAs<float>(what, heap) : measureAs<double>(what, heap);
     } catch (std::runtime_error const& error) {
         std::printf("%-32s failed: %s\n", what.Name().c_str(), error.what());
         return std::nullopt;
@@ -286,10 +296,13 @@ constexpr std::size_t kPrecisions[] = {sizeof(float), sizeof(double)};
 
 /// Both ratios on Spot and on 10,000 faces, level by level.
 void compareWithOpenSubdiv(Options const& options, Record& record) {
-    Record::PrintHeading("One-shot shading against OpenSubdiv alone (medians of processor time)");
     Model const spot = ReadSpot(options.extraModels);
     if (spot.name != "spot")
         std::printf("(zbk/spot.obj is not in %s: %s instead)\n", options.extraModels.c_str(), spot.name.c_str());
+    Record::PrintHeading(
+        options.heap == HeapState::Cold
+            ? "One-shot shading against OpenSubdiv alone (medians of processor time, fresh memory)"
+            : "One-shot shading against OpenSubdiv alone (medians of processor time, warm memory)");
     Model const quads = CreasedTorus(100, 80), triangles = Triangulated(CreasedTorus(80, 52));
     std::pair<Model const*, Sdc::SchemeType> const meshes[] = {
         {&spot, Sdc::SCHEME_CATMARK}, {&quads, Sdc::SCHEME_CATMARK}, {&triangles, Sdc::SCHEME_LOOP}};
@@ -297,7 +310,7 @@ void compareWithOpenSubdiv(Options const& options, Record& record) {
         for (std::size_t const realSize : kPrecisions) {
             for (int level = 3; level <= (options.isQuick ? 4 : 6); ++level) {
                 Case const what{model, scheme, level, realSize};
-                std::optional<Cost> const cost = measure(what);
+                std::optional<Cost> const cost = measure(what, options.heap);
                 if (!cost) continue;
                 record.Add(what, *cost);
                 if (cost->TimeRatio() > kTimeGoal)
@@ -343,7 +356,7 @@ void growWithFaces(Options const& options, Record& record) {
                 Model const quads = CreasedTorus(size.first, size.second);
                 Model const model = isCatmark ? quads : Triangulated(quads);
                 Case const what{&model, scheme, kLevel, realSize};
-                std::optional<Cost> const cost = measure(what);
+                std::optional<Cost> const cost = measure(what, options.heap);
                 if (!cost) continue;
                 record.Add(what, *cost);
                 auto const faces = static_cast<double>(what.LastFaces());
@@ -367,10 +380,11 @@ void growWithFaces(Options const& options, Record& record) {
 }
 
 char const kUsage[] =
-    "usage: osd_shading_perf [EXTRA_MODELS] [--quick] [--large] [--stages] [--csv FILE]\n"
+    "usage: osd_shading_perf [EXTRA_MODELS] [--quick] [--large] [--warm] [--stages] [--csv FILE]\n"
     "  EXTRA_MODELS  folder with zbk/spot.obj\n"
     "  --quick       levels 3 and 4 only, and a million faces at most\n"
     "  --large       40 million faces too\n"
+    "  --warm        from memory that the process already holds, instead of fresh pages of the system\n"
     "  --stages      wall time of each stage\n";
 
 std::optional<Options> parseOptions(std::vector<std::string> const& words) {
@@ -380,6 +394,8 @@ std::optional<Options> parseOptions(std::vector<std::string> const& words) {
             options.isQuick = true;
         } else if (words[i] == "--large") {
             options.isLarge = true;
+        } else if (words[i] == "--warm") {
+            options.heap = HeapState::Warm;
         } else if (words[i] == "--stages") {
             options.showsStages = true;
         } else if (words[i] == "--csv" && i + 1 < words.size()) {
