@@ -13,7 +13,6 @@ namespace {
 using namespace osd_shading;
 using namespace osd_shading::tests;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-15;
 
 template <typename Real>
