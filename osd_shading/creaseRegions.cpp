@@ -165,30 +165,26 @@ namespace {
 /// make one run from a sharp edge to a sharp edge.
 void orderFan(Far::TopologyLevel const& level, RegionFan& fan) {
     std::size_t const count = fan.faces.size();
-    std::vector<char> isUsed(count, 0);
-    auto const sharedWith = [&](int edge, bool (*leads)(Far::TopologyLevel const&, int, int, int)) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (!isUsed[i] && leads(level, fan.faces[i], fan.corners[i], edge)) return static_cast<int>(i);
-        }
-        return -1;
-    };
-    int current = -1;
-    for (std::size_t i = 0; i < count && current < 0; ++i) {
-        if (IsSharpEdge(level, edgeAfter(level, fan.faces[i], fan.corners[i]))) current = static_cast<int>(i);
-    }
+    std::vector<std::pair<int, std::size_t>> leading;  // edge that leads a face, face
+    for (std::size_t i = 0; i < count; ++i) leading.emplace_back(edgeAfter(level, fan.faces[i], fan.corners[i]), i);
+    std::sort(leading.begin(), leading.end());
+    auto const first = std::find_if(leading.begin(), leading.end(),
+                                    [&](auto const& side) { return IsSharpEdge(level, side.first); });
+    if (first == leading.end()) return;
+
     std::vector<int> faces, corners;
-    while (current >= 0) {
-        auto const i = static_cast<std::size_t>(current);
-        isUsed[i] = 1;
+    for (auto next = first; faces.size() < count;) {
+        std::size_t const i = next->second;
         faces.push_back(fan.faces[i]);
         corners.push_back(fan.corners[i]);
         int const edge = edgeBefore(level, fan.faces[i], fan.corners[i]);
-        if (IsSharpEdge(level, edge)) break;
-        current = sharedWith(edge, [](Far::TopologyLevel const& l, int face, int corner, int e) {
-            return edgeAfter(l, face, corner) == e;
-        });
+        if (IsSharpEdge(level, edge)) {
+            fan.isOrdered = faces.size() == count;
+            break;
+        }
+        next = std::lower_bound(leading.begin(), leading.end(), std::make_pair(edge, std::size_t{0}));
+        if (next == leading.end() || next->first != edge) break;
     }
-    fan.isOrdered = faces.size() == count && current >= 0;
     if (fan.isOrdered) {
         fan.faces.swap(faces);
         fan.corners.swap(corners);
@@ -196,6 +192,19 @@ void orderFan(Far::TopologyLevel const& level, RegionFan& fan) {
 }
 
 }  // namespace
+
+void FindRegionFaces(Far::TopologyLevel const& level, CreaseRegions const& regions, int vertex,
+                     std::vector<std::vector<int>>& facesOfRegion) {
+    auto const numRegions = static_cast<std::size_t>(regions.NumVertexValues(vertex));
+    if (facesOfRegion.size() < numRegions) facesOfRegion.resize(numRegions);
+    for (std::size_t i = 0; i < numRegions; ++i) facesOfRegion[i].clear();
+    Far::ConstIndexArray const faces = level.GetVertexFaces(vertex);
+    Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(vertex);
+    for (int i = 0; i < faces.size(); ++i) {
+        int const region = regions.CornerValue(faces[i], corners[i]) - regions.FirstValue(vertex);
+        facesOfRegion[static_cast<std::size_t>(region)].push_back(faces[i]);
+    }
+}
 
 void FindRegionFans(Far::TopologyLevel const& level, CreaseRegions const& regions, int vertex,
                     std::vector<RegionFan>& fans) {

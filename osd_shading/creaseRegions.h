@@ -68,6 +68,11 @@ struct RegionFan {
     std::vector<int> corners;  ///< of the vertex in each face
 };
 
+/// The faces of each region of `vertex`, in the order of its values. Reuses the memory of `facesOfRegion`, which
+/// may keep more entries than there are regions.
+void FindRegionFaces(Far::TopologyLevel const& level, CreaseRegions const& regions, int vertex,
+                     std::vector<std::vector<int>>& facesOfRegion);
+
 /// The regions of `vertex` as fans, in the order of its values. Reuses the memory of `fans`.
 void FindRegionFans(Far::TopologyLevel const& level, CreaseRegions const& regions, int vertex,
                     std::vector<RegionFan>& fans);

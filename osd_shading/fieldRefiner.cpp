@@ -119,7 +119,7 @@ FieldStep<Real>::FieldStep(RefinedTopology const& topology, int childLevel, Leve
 
     // Give those their own rows, one for each region.
     std::unique_ptr<RegionRule<Real>> rule;
-    std::vector<int> faces;
+    std::vector<std::vector<int>> facesOfRegion;
     for (std::vector<int> const& special : specialOfChunk) {
         if (special.empty()) continue;
         if (!rule) {
@@ -140,17 +140,11 @@ FieldStep<Real>::FieldStep(RefinedTopology const& topology, int childLevel, Leve
                     rule->AddFace(~term - firstFaceChild, weight);
                 }
             }
-            Far::ConstIndexArray const childFaces = level.GetVertexFaces(c);
-            Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(c);
+            FindRegionFaces(level, child, c, facesOfRegion);
             for (int i = 0; i < child.NumVertexValues(c); ++i) {
-                int const value = child.FirstValue(c) + i;
-                faces.clear();
-                for (int k = 0; k < childFaces.size(); ++k) {
-                    if (child.CornerValue(childFaces[k], corners[k]) == value) {
-                        faces.push_back(level.GetFaceParentFace(childFaces[k]));
-                    }
-                }
-                rule->AppendRow(value, faces, _special);
+                std::vector<int>& faces = facesOfRegion[static_cast<std::size_t>(i)];
+                for (int& face : faces) face = level.GetFaceParentFace(face);
+                rule->AppendRow(child.FirstValue(c) + i, faces, _special);
             }
         }
     }

@@ -237,7 +237,7 @@ LimitStep<Real>::LimitStep(RefinedTopology const& topology, int level, CreaseReg
     });
 
     std::unique_ptr<RegionRule<Real>> rule;
-    std::vector<int> faces;
+    std::vector<std::vector<int>> facesOfRegion;
     for (std::vector<int> const& special : specialOfChunk) {
         if (special.empty()) continue;
         if (!rule) {
@@ -249,15 +249,9 @@ LimitStep<Real>::LimitStep(RefinedTopology const& topology, int level, CreaseReg
             if (regions.NumVertexValues(v) == 0) continue;
             rule->Clear();
             forEachVertexTerm(v, [&](int u, Real weight) { rule->AddVertex(u, weight); });
-            Far::ConstIndexArray const vertexFaces = _level->GetVertexFaces(v);
-            Far::ConstLocalIndexArray const corners = _level->GetVertexFaceLocalIndices(v);
+            FindRegionFaces(*_level, regions, v, facesOfRegion);
             for (int i = 0; i < regions.NumVertexValues(v); ++i) {
-                int const value = regions.FirstValue(v) + i;
-                faces.clear();
-                for (int k = 0; k < vertexFaces.size(); ++k) {
-                    if (regions.CornerValue(vertexFaces[k], corners[k]) == value) faces.push_back(vertexFaces[k]);
-                }
-                rule->AppendRow(value, faces, _special);
+                rule->AppendRow(regions.FirstValue(v) + i, facesOfRegion[static_cast<std::size_t>(i)], _special);
             }
         }
     }
