@@ -33,16 +33,45 @@ install(FILES "${PROJECT_BINARY_DIR}/osd_shadingConfig.cmake" "${PROJECT_BINARY_
 install(FILES "${PROJECT_SOURCE_DIR}/cmake/probeOpenSubdiv/CMakeLists.txt"
         DESTINATION "${packageFolder}/probeOpenSubdiv")
 
-set(pkgConfigFlags "$<$<BOOL:${BUILD_SHARED_LIBS}>: -DOSD_SHADING_SHARED>")
-file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/osd_shading.pc" CONTENT
-"prefix=${CMAKE_INSTALL_PREFIX}
-includedir=${CMAKE_INSTALL_FULL_INCLUDEDIR}
-libdir=${CMAKE_INSTALL_FULL_LIBDIR}
+# The pkg-config file. It finds its prefix itself, so that an installed tree can be moved.
+cmake_path(IS_ABSOLUTE CMAKE_INSTALL_LIBDIR isAbsolute)
+if(isAbsolute)
+    set(pcPrefix "${CMAKE_INSTALL_PREFIX}")
+else()
+    file(RELATIVE_PATH pcPrefix "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
+    string(PREPEND pcPrefix "\${pcfiledir}/")
+endif()
+set(pcIncludeFolder "\${prefix}")
+cmake_path(APPEND pcIncludeFolder "${CMAKE_INSTALL_INCLUDEDIR}")
+set(pcLibraryFolder "\${prefix}")
+cmake_path(APPEND pcLibraryFolder "${CMAKE_INSTALL_LIBDIR}")
 
-Name: osd_shading
-Description: ${PROJECT_DESCRIPTION} ${OpenSubdiv_VERSION}
-Version: ${PROJECT_VERSION}
-Cflags: -I\${includedir}${pkgConfigFlags}
-Libs: -L\${libdir} -losd_shading -losdCPU -pthread
-")
+# OpenSubdiv where it was found; folders that the compiler searches anyway need no flag.
+set(pcFlags "")
+if(BUILD_SHARED_LIBS)
+    set(pcFlags " -DOSD_SHADING_SHARED")
+endif()
+set(pcLibraries " -losdCPU")
+get_target_property(folders osd_shading::OpenSubdiv INTERFACE_INCLUDE_DIRECTORIES)
+list(REMOVE_ITEM folders "" ${CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES})
+foreach(folder IN LISTS folders)
+    string(APPEND pcFlags " -I\"${folder}\"")
+endforeach()
+get_target_property(linked osd_shading::OpenSubdiv INTERFACE_LINK_LIBRARIES)
+foreach(target osd_shading::OpenSubdiv ${linked})
+    foreach(property IMPORTED_LOCATION IMPORTED_LOCATION_RELEASE IMPORTED_LOCATION_NONE IMPORTED_LOCATION_DEBUG)
+        set(location "")
+        if(TARGET ${target})
+            get_target_property(location ${target} ${property})
+        endif()
+        if(location MATCHES "^(.+)/lib([^/]+)\\.(so|a|dylib)[0-9.]*$")
+            set(pcLibraries " -l${CMAKE_MATCH_2}")
+            if(NOT CMAKE_MATCH_1 IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES)
+                string(PREPEND pcLibraries " -L\"${CMAKE_MATCH_1}\"")
+            endif()
+            break()
+        endif()
+    endforeach()
+endforeach()
+configure_file("${PROJECT_SOURCE_DIR}/cmake/osd_shading.pc.in" "${PROJECT_BINARY_DIR}/osd_shading.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/osd_shading.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

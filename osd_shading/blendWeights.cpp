@@ -122,10 +122,12 @@ ValueMarks findNewlyEligible(RefinedTopology const& topology, int levelIndex, Cr
         if (v >= parent.GetNumVertices()) return;  // the child of a face or an edge
         Far::ConstIndexArray const faces = level.GetVertexFaces(v);
         Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(v);
+        Far::ConstLocalIndexArray const parentCorners = parent.GetVertexFaceLocalIndices(v);
         for (int i = 0; i < faces.size(); ++i) {
+            // The faces of a vertex and of its child have the same order.
             int const parentFace = level.GetFaceParentFace(faces[i]);
-            int const parentCorner = parent.GetFaceVertices(parentFace).FindIndex(v);
-            if (parentEligible[static_cast<std::size_t>(parentRegions.CornerValue(parentFace, parentCorner))]) {
+            assert(parentFace == parent.GetVertexFaces(v)[i]);
+            if (parentEligible[static_cast<std::size_t>(parentRegions.CornerValue(parentFace, parentCorners[i]))]) {
                 isNew[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]))] = 0;
             }
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "osd_shading/controlMesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -19,8 +20,6 @@ namespace {
 constexpr int kLargestFace = 65535;
 
 [[noreturn]] void fail(std::string const& text) { throw InvalidControlMesh(text); }
-
-std::string quoted(int i) { return std::to_string(i); }
 
 template <typename T>
 void checkView(ArrayView<T> const& view, char const* name) {
@@ -55,39 +54,73 @@ void checkFaces(ControlMesh const& mesh) {
     bool const isLoop = mesh.rules.scheme == Sdc::SCHEME_LOOP;
     // The last face that used each vertex: finds repeated vertices in one pass.
     std::vector<int> lastFace(static_cast<std::size_t>(mesh.numVertices), -1);
-    std::vector<int> valence(static_cast<std::size_t>(mesh.numVertices), 0);
     std::size_t corner = 0;
     for (std::size_t f = 0; f < mesh.faceSizes.size(); ++f) {
         int const face = static_cast<int>(f), size = mesh.faceSizes[f];
-        if (size < 3) fail("face " + quoted(face) + " has " + quoted(size) + " vertices; a face needs 3 or more");
+        if (size < 3) {
+            fail("face " + std::to_string(face) + " has " + std::to_string(size) +
+                 " vertices; a face needs 3 or more");
+        }
         if (size > kLargestFace) {
-            fail("face " + quoted(face) + " has " + quoted(size) + " vertices; OpenSubdiv takes at most 65535");
+            fail("face " + std::to_string(face) + " has " + std::to_string(size) +
+                 " vertices; OpenSubdiv takes at most 65535");
         }
         if (isLoop && size != 3) {
-            fail("face " + quoted(face) + " has " + quoted(size) +
+            fail("face " + std::to_string(face) + " has " + std::to_string(size) +
                  " vertices; Loop subdivision takes triangles only (triangulate, or use Catmull-Clark)");
         }
         if (static_cast<std::size_t>(size) > mesh.faceVertices.size() - corner) {
             fail("faceVertices has " + std::to_string(mesh.faceVertices.size()) +
-                 " elements, fewer than faceSizes adds up to (it ends in face " + quoted(face) + ")");
+                 " elements, fewer than faceSizes adds up to (it ends in face " + std::to_string(face) + ")");
         }
         for (int i = 0; i < size; ++i, ++corner) {
             int const v = mesh.faceVertices[corner];
             if (v < 0 || v >= mesh.numVertices) {
-                fail("face " + quoted(face) + " names vertex " + quoted(v) + "; there are " +
-                     quoted(mesh.numVertices) + " vertices");
+                fail("face " + std::to_string(face) + " names vertex " + std::to_string(v) + "; there are " +
+                     std::to_string(mesh.numVertices) + " vertices");
             }
             int& last = lastFace[static_cast<std::size_t>(v)];
-            if (last == face) fail("face " + quoted(face) + " names vertex " + quoted(v) + " twice");
-            last = face;
-            if (++valence[static_cast<std::size_t>(v)] > kLargestFace) {
-                fail("vertex " + quoted(v) + " has more than 65535 faces, more than OpenSubdiv takes");
+            if (last == face) {
+                fail("face " + std::to_string(face) + " names vertex " + std::to_string(v) + " twice");
             }
+            last = face;
         }
     }
     if (corner != mesh.faceVertices.size()) {
         fail("faceVertices has " + std::to_string(mesh.faceVertices.size()) + " elements; faceSizes adds up to " +
              std::to_string(corner));
+    }
+}
+
+/// OpenSubdiv counts the edges of a vertex in 16 bits too: more than its faces, on boundaries and joins.
+void checkValences(ControlMesh const& mesh) {
+    std::vector<int> numFaces(static_cast<std::size_t>(mesh.numVertices), 0);
+    for (int const v : mesh.faceVertices) {
+        if (++numFaces[static_cast<std::size_t>(v)] > kLargestFace) {
+            fail("vertex " + std::to_string(v) + " has more than 65535 faces, more than OpenSubdiv takes");
+        }
+    }
+    std::unordered_map<int, std::vector<int>> neighbors;
+    for (int v = 0; v < mesh.numVertices; ++v) {
+        if (2 * numFaces[static_cast<std::size_t>(v)] > kLargestFace) neighbors[v];
+    }
+    if (neighbors.empty()) return;
+    std::size_t first = 0;
+    for (int const size : mesh.faceSizes) {
+        auto const n = static_cast<std::size_t>(size);
+        for (std::size_t i = 0; i < n; ++i) {
+            auto const found = neighbors.find(mesh.faceVertices[first + i]);
+            if (found == neighbors.end()) continue;
+            found->second.push_back(mesh.faceVertices[first + (i + 1) % n]);
+            found->second.push_back(mesh.faceVertices[first + (i + n - 1) % n]);
+        }
+        first += n;
+    }
+    for (auto& [v, others] : neighbors) {
+        std::sort(others.begin(), others.end());
+        if (std::unique(others.begin(), others.end()) - others.begin() > kLargestFace) {
+            fail("vertex " + std::to_string(v) + " has more than 65535 edges, more than OpenSubdiv takes");
+        }
     }
 }
 
@@ -103,11 +136,11 @@ void checkCreases(ControlMesh const& mesh) {
     for (std::size_t i = 0; i < mesh.creaseSharpness.size(); ++i) {
         int const a = mesh.creaseVertices[2 * i], b = mesh.creaseVertices[2 * i + 1];
         std::string const element =
-            "crease " + std::to_string(i) + " (vertices " + quoted(a) + ", " + quoted(b) + ")";
+            "crease " + std::to_string(i) + " (vertices " + std::to_string(a) + ", " + std::to_string(b) + ")";
         for (int const v : {a, b}) {
             if (v < 0 || v >= mesh.numVertices) {
-                fail(element + " names vertex " + quoted(v) + "; there are " + quoted(mesh.numVertices) +
-                     " vertices");
+                fail(element + " names vertex " + std::to_string(v) + "; there are " +
+                     std::to_string(mesh.numVertices) + " vertices");
             }
         }
         checkSharpness(mesh.creaseSharpness[i], element);
@@ -126,8 +159,8 @@ void checkCreases(ControlMesh const& mesh) {
     for (std::size_t i = 0; i < mesh.creaseSharpness.size(); ++i) {
         int const a = mesh.creaseVertices[2 * i], b = mesh.creaseVertices[2 * i + 1];
         if (!isEdge.at(edgeKey(a, b))) {
-            fail("crease " + std::to_string(i) + " names vertices " + quoted(a) + " and " + quoted(b) +
-                 ", which no edge joins");
+            fail("crease " + std::to_string(i) + " names vertices " + std::to_string(a) + " and " +
+                 std::to_string(b) + ", which no edge joins");
         }
     }
 }
@@ -143,9 +176,11 @@ void ValidateControlMesh(ControlMesh const& mesh) {
     checkView(mesh.cornerSharpness, "cornerSharpness");
     checkView(mesh.holes, "holes");
     checkRules(mesh.rules);
-    if (mesh.numVertices <= 0) fail("numVertices is " + quoted(mesh.numVertices) + "; a mesh needs vertices");
+    if (mesh.numVertices <= 0)
+        fail("numVertices is " + std::to_string(mesh.numVertices) + "; a mesh needs vertices");
     if (mesh.faceSizes.empty()) fail("the mesh has no faces");
     checkFaces(mesh);
+    checkValences(mesh);
     checkCreases(mesh);
 
     if (mesh.cornerVertices.size() != mesh.cornerSharpness.size()) {
@@ -154,15 +189,15 @@ void ValidateControlMesh(ControlMesh const& mesh) {
     }
     for (std::size_t i = 0; i < mesh.cornerVertices.size(); ++i) {
         int const v = mesh.cornerVertices[i];
-        std::string const element = "corner " + std::to_string(i) + " (vertex " + quoted(v) + ")";
+        std::string const element = "corner " + std::to_string(i) + " (vertex " + std::to_string(v) + ")";
         if (v < 0 || v >= mesh.numVertices) {
-            fail(element + " is out of range; there are " + quoted(mesh.numVertices) + " vertices");
+            fail(element + " is out of range; there are " + std::to_string(mesh.numVertices) + " vertices");
         }
         checkSharpness(mesh.cornerSharpness[i], element);
     }
     for (std::size_t i = 0; i < mesh.holes.size(); ++i) {
         if (mesh.holes[i] < 0 || static_cast<std::size_t>(mesh.holes[i]) >= mesh.faceSizes.size()) {
-            fail("hole " + std::to_string(i) + " names face " + quoted(mesh.holes[i]) + "; there are " +
+            fail("hole " + std::to_string(i) + " names face " + std::to_string(mesh.holes[i]) + "; there are " +
                  std::to_string(mesh.faceSizes.size()) + " faces");
         }
     }

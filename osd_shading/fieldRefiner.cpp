@@ -88,7 +88,7 @@ void RegionRule<Real>::AppendRow(int target, std::vector<int>& faces, ValueRows<
         _slotOfValue[static_cast<std::size_t>(rows.values[i])] = -1;
     }
     rows.targets.push_back(target);
-    rows.offsets.push_back(static_cast<int>(rows.values.size()));
+    rows.offsets.push_back(rows.values.size());
 }
 
 template <typename Real>
@@ -176,10 +176,9 @@ void FieldStep<Real>::Apply(std::vector<T> const& parentField, std::vector<T>& c
             int const target = _special.targets[static_cast<std::size_t>(i)];
             if (!isNeeded(target)) continue;
             T sum{};
-            for (int t = _special.offsets[static_cast<std::size_t>(i)];
+            for (std::size_t t = _special.offsets[static_cast<std::size_t>(i)];
                  t < _special.offsets[static_cast<std::size_t>(i) + 1]; ++t) {
-                sum += _special.weights[static_cast<std::size_t>(t)] *
-                       parentField[static_cast<std::size_t>(_special.values[static_cast<std::size_t>(t)])];
+                sum += _special.weights[t] * parentField[static_cast<std::size_t>(_special.values[t])];
             }
             childField[static_cast<std::size_t>(target)] = sum;
         }
@@ -207,8 +206,8 @@ void FieldStep<Real>::MarkSources(ValueMarks& childMarks, ValueMarks& parentMark
     parentMarks.assign(static_cast<std::size_t>(_parent->NumValues()), 0);
     for (std::size_t i = 0; i < _special.targets.size(); ++i) {
         if (!childMarks[static_cast<std::size_t>(_special.targets[i])]) continue;
-        for (int t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
-            parentMarks[static_cast<std::size_t>(_special.values[static_cast<std::size_t>(t)])] = 1;
+        for (std::size_t t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
+            parentMarks[static_cast<std::size_t>(_special.values[t])] = 1;
         }
     }
     auto const markFor = [&](int first, int last) {
@@ -239,9 +238,8 @@ void FieldStep<Real>::AppendTerms(int childVertex, int childValue, std::vector<s
     if (!_isSpecial.empty() && _isSpecial[static_cast<std::size_t>(childVertex)]) {
         auto const found = std::lower_bound(_special.targets.begin(), _special.targets.end(), childValue);
         auto const i = static_cast<std::size_t>(found - _special.targets.begin());
-        for (int t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
-            terms.emplace_back(_special.values[static_cast<std::size_t>(t)],
-                               _special.weights[static_cast<std::size_t>(t)]);
+        for (std::size_t t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
+            terms.emplace_back(_special.values[t], _special.weights[t]);
         }
         return;
     }

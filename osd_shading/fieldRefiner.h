@@ -19,7 +19,7 @@ using ValueMarks = std::vector<unsigned char>;
 template <typename Real>
 struct ValueRows {
     std::vector<int> targets;
-    std::vector<int> offsets{0};
+    std::vector<std::size_t> offsets{0};  ///< a face of many corners near a crease makes rows as long
     std::vector<int> values;
     std::vector<Real> weights;
 };
@@ -77,7 +77,7 @@ public:
 
 private:
     template <typename T>
-    T sumOfMask(int row, std::vector<T> const& parentField, std::vector<T> const& childField) const;
+    T sumOfMask(int childVertex, std::vector<T> const& parentField, std::vector<T> const& childField) const;
 
     RefinedTopology const* _topology;
     int _childLevel;

@@ -23,21 +23,21 @@ namespace Bfr = OpenSubdiv::OPENSUBDIV_VERSION::Bfr;
 namespace {
 
 /// A point as OpenSubdiv's refiners and tables want to see it.
-template <typename Real>
-struct Point : Vec3<Real> {
+struct Point : Vec3<double> {
     void Clear() { *this = {}; }
     template <typename Weight>
     void AddWithWeight(Point const& other, Weight weight) {
-        static_cast<Vec3<Real>&>(*this) += static_cast<Real>(weight) * static_cast<Vec3<Real> const&>(other);
+        static_cast<Vec3<double>&>(*this) += static_cast<double>(weight) * static_cast<Vec3<double> const&>(other);
     }
 };
 
-template <typename Real>
-using Points = std::vector<Point<Real>>;
+using Points = std::vector<Point>;
 
+/// How far ours is from theirs, which is always in double: float tables and patches of OpenSubdiv round more than
+/// we do.
 template <typename Real>
-double distance(Vec3<Real> const& a, Vec3<Real> const& b) {
-    return Length(Vec3<double>{double(a.x) - double(b.x), double(a.y) - double(b.y), double(a.z) - double(b.z)});
+double distance(Vec3<Real> const& ours, Vec3<double> const& theirs) {
+    return Length(Vec3<double>{double(ours.x), double(ours.y), double(ours.z)} - theirs);
 }
 
 void compare(GeometryComparison& comparison, double difference, int level, int vertex) {
@@ -65,18 +65,18 @@ double sizeOf(PointView<Real> points) {
 
 /// The refined points of one level against OpenSubdiv's factorised stencils.
 template <typename Real>
-GeometryComparison compareStencils(RefinedTopology const& topology, Points<Real> const& control,
+GeometryComparison compareStencils(RefinedTopology const& topology, Points const& control,
                                    std::vector<std::vector<Vec3<Real>>> const& levelPoints, double size) {
     GeometryComparison comparison;
     comparison.name = "stencils";
     if (topology.LastLevel() == 0) return comparison;
-    typename Far::StencilTableFactoryReal<Real>::Options options;
+    Far::StencilTableFactoryReal<double>::Options options;
     options.generateIntermediateLevels = true;
     options.generateOffsets = false;
     options.maxLevel = static_cast<unsigned int>(topology.LastLevel()) & 15u;
-    std::unique_ptr<Far::StencilTableReal<Real> const> const table(
-        Far::StencilTableFactoryReal<Real>::Create(topology.Refiner(), options));
-    Points<Real> refined(static_cast<std::size_t>(table->GetNumStencils()));
+    std::unique_ptr<Far::StencilTableReal<double> const> const table(
+        Far::StencilTableFactoryReal<double>::Create(topology.Refiner(), options));
+    Points refined(static_cast<std::size_t>(table->GetNumStencils()));
     table->UpdateValues(control, refined);
 
     std::size_t first = 0;
@@ -84,7 +84,7 @@ GeometryComparison compareStencils(RefinedTopology const& topology, Points<Real>
         std::vector<Vec3<Real>> const& ours = levelPoints[static_cast<std::size_t>(level)];
         comparison.total += static_cast<std::int64_t>(ours.size());
         for (std::size_t v = 0; v < ours.size(); ++v) {
-            compare(comparison, distance<Real>(ours[v], refined[first + v]) / size, level, static_cast<int>(v));
+            compare(comparison, distance(ours[v], refined[first + v]) / size, level, static_cast<int>(v));
         }
         first += ours.size();
     }
@@ -103,14 +103,13 @@ bool tangentMasksFit(Far::TopologyLevel const& level) {
 }
 
 /// What OpenSubdiv's level-by-level refiner and its limit give at the last level.
-template <typename Real>
 struct OpenSubdivLimits {
-    Points<Real> positions, tangents1, tangents2;  ///< tangents: empty where OpenSubdiv can't be asked
+    Points positions, tangents1, tangents2;  ///< tangents: empty where OpenSubdiv can't be asked
 
-    OpenSubdivLimits(RefinedTopology const& topology, Points<Real> points) {
-        Far::PrimvarRefinerReal<Real> const refiner(topology.Refiner());
+    OpenSubdivLimits(RefinedTopology const& topology, Points points) {
+        Far::PrimvarRefinerReal<double> const refiner(topology.Refiner());
         for (int level = 1; level <= topology.LastLevel(); ++level) {
-            Points<Real> refined(static_cast<std::size_t>(topology.Level(level).GetNumVertices()));
+            Points refined(static_cast<std::size_t>(topology.Level(level).GetNumVertices()));
             refiner.Interpolate(level, points, refined);
             points.swap(refined);
         }
@@ -145,7 +144,7 @@ int sideOfTangents(Far::TopologyLevel const& level, CreaseRegions const& regions
 }
 
 template <typename Real>
-GeometryComparison compareLimitNormals(LimitStep<Real> const& limit, OpenSubdivLimits<Real> const& theirs,
+GeometryComparison compareLimitNormals(LimitStep<Real> const& limit, OpenSubdivLimits const& theirs,
                                        std::vector<Vec3<Real>> const& points, ShadingResult<Real> const& result) {
     GeometryComparison comparison;
     comparison.name = "limit_normals";
@@ -159,9 +158,7 @@ GeometryComparison compareLimitNormals(LimitStep<Real> const& limit, OpenSubdivL
         int const side = sideOfTangents(level, regions, v);
         if (side < 0) continue;
         auto const i = static_cast<std::size_t>(v);
-        Vec3<Real> const& tangent1 = theirs.tangents1[i];
-        Vec3<Real> const& tangent2 = theirs.tangents2[i];
-        Vec3<Real> const normal = Cross<Real>(tangent1, tangent2);
+        Vec3<double> const normal = Cross<double>(theirs.tangents1[i], theirs.tangents2[i]);
         Real longest = 0;
         for (int const edge : level.GetVertexEdges(v)) {
             Far::ConstIndexArray const ends = level.GetEdgeVertices(edge);
@@ -197,14 +194,15 @@ bool isBfrExactAt(RefinedTopology const& topology, Far::TopologyLevel const& lev
 
 /// Whether Bfr is exact on a control face, and can be asked about it.
 ///
-/// With a corner of interior valence 2 beside a boundary and a crease, 3.5.0 reads memory that it never set (mended
-/// in 3.6.0). Under Chaikin's rule sharpness depends on edges beyond the faces round a face, which Bfr does not
-/// see.
+/// Bfr makes corners of some non-manifold vertices that Far leaves creases. With a corner of interior valence 2
+/// beside a boundary and a crease, 3.5.0 reads memory that it never set (mended in 3.6.0). Under Chaikin's rule
+/// sharpness depends on edges beyond the faces round a face, which Bfr does not see.
 bool isBfrExactOn(RefinedTopology const& topology, int face) {
     Far::TopologyLevel const& base = topology.Level(0);
     bool const isChaikin =
         topology.Refiner().GetSchemeOptions().GetCreasingMethod() == Sdc::Options::CREASE_CHAIKIN;
     for (int const v : base.GetFaceVertices(face)) {
+        if (base.IsVertexNonManifold(v)) return false;
         if (base.GetVertexFaces(v).size() == 2 && !base.IsVertexBoundary(v)) return false;
         if (!isChaikin) continue;
         for (int const edge : base.GetVertexEdges(v)) {
@@ -270,7 +268,7 @@ std::vector<FaceCoordinates> findCoordinates(RefinedTopology const& topology, st
 }
 
 template <typename Real>
-GeometryComparison compareBfr(RefinedTopology const& topology, std::vector<Vec3<Real>> const& control,
+GeometryComparison compareBfr(RefinedTopology const& topology, Points const& control,
                               std::vector<Vec3<Real>> const& limits, double size) {
     int const lastLevel = topology.LastLevel();
     Far::TopologyLevel const& last = topology.Level(lastLevel);
@@ -304,9 +302,9 @@ GeometryComparison compareBfr(RefinedTopology const& topology, std::vector<Vec3<
         return baseFaces[static_cast<std::size_t>(a)] < baseFaces[static_cast<std::size_t>(b)];
     });
     std::vector<unsigned char> isDone(limits.size(), 0);
-    Bfr::Surface<Real> surface;
-    std::vector<Real> patchPoints;
-    typename Bfr::Surface<Real>::PointDescriptor const descriptor(3, 3);
+    Bfr::Surface<double> surface;
+    std::vector<double> patchPoints;
+    Bfr::Surface<double>::PointDescriptor const descriptor(3, 3);
     int current = -1;
     bool isValid = false;
     for (int const f : faces) {
@@ -326,9 +324,8 @@ GeometryComparison compareBfr(RefinedTopology const& topology, std::vector<Vec3<
             if (isDone[v] || !isBfrExactAt(topology, last, vertices[i])) continue;
             isDone[v] = 1;
             double const* const coordinate = coordinates[static_cast<std::size_t>(f)].corners[i];
-            Real const uv[2] = {static_cast<Real>(coordinate[0]), static_cast<Real>(coordinate[1])};
-            Vec3<Real> theirs;
-            surface.Evaluate(uv, patchPoints.data(), descriptor, &theirs.x);
+            Vec3<double> theirs;
+            surface.Evaluate(coordinate, patchPoints.data(), descriptor, &theirs.x);
             compare(comparison, distance(limits[v], theirs) / size, lastLevel, vertices[i]);
         }
     }
@@ -361,27 +358,31 @@ GeometryCheck check(RefinedTopology const& topology, PointView<Real> positions, 
 
     GeometryCheck check;
     check.modelSize = sizeOf(positions);
-    Points<Real> control(positions.size());
-    for (std::size_t i = 0; i < control.size(); ++i) control[i] = {levelPoints[0][i]};
+    Points control(positions.size());
+    for (std::size_t i = 0; i < control.size(); ++i) {
+        Vec3<Real> const& p = levelPoints[0][i];
+        control[i] = {{double(p.x), double(p.y), double(p.z)}};
+    }
     check.comparisons.push_back(compareStencils(topology, control, levelPoints, check.modelSize));
 
-    OpenSubdivLimits<Real> const theirs(topology, control);
+    OpenSubdivLimits const theirs(topology, control);
     GeometryComparison positionsCompared;
     positionsCompared.name = "limit";
     positionsCompared.total = static_cast<std::int64_t>(limits.size());
     for (std::size_t v = 0; v < limits.size(); ++v) {
-        compare(positionsCompared, distance<Real>(limits[v], theirs.positions[v]) / check.modelSize,
-                topology.LastLevel(), static_cast<int>(v));
+        compare(positionsCompared, distance(limits[v], theirs.positions[v]) / check.modelSize, topology.LastLevel(),
+                static_cast<int>(v));
     }
     check.comparisons.push_back(positionsCompared);
-    check.comparisons.push_back(compareBfr(topology, levelPoints[0], limits, check.modelSize));
+    check.comparisons.push_back(compareBfr(topology, control, limits, check.modelSize));
     check.comparisons.push_back(compareLimitNormals(limit, theirs, levelPoints.back(), result));
     return check;
 }
 
 template <typename Real>
 void checkCount(PointView<Real> positions, int numVertices) {
-    if (positions.size() != static_cast<std::size_t>(numVertices) || positions.data() == nullptr) {
+    if (positions.size() != static_cast<std::size_t>(numVertices) || positions.data() == nullptr ||
+        positions.stride() < 3) {
         throw InvalidControlMesh("positions has " + std::to_string(positions.size()) +
                                  " elements; the mesh needs " + std::to_string(numVertices) + ", one per vertex");
     }
@@ -399,13 +400,21 @@ template <typename Real>
 GeometryCheck CheckGeometry(ControlMesh const& mesh, PointView<Real> positions, ShadingResult<Real> const& result) {
     ValidateControlMesh(mesh);
     checkCount(positions, mesh.numVertices);
+    bool hasIrregularFaces = false;
+    for (int const size : mesh.faceSizes) hasIrregularFaces |= size != 4;
+    ResolveOptions(result.options, hasIrregularFaces, mesh.rules.scheme);
     return check(RefinedTopology(mesh, result.options.level), positions, result);
 }
 
 template <typename Real>
 GeometryCheck CheckGeometry(Far::TopologyRefiner const& refiner, PointView<Real> positions,
                             ShadingResult<Real> const& result) {
-    checkCount(positions, refiner.GetLevel(0).GetNumVertices());
+    ValidateRefiner(refiner);
+    Far::TopologyLevel const base = refiner.GetLevel(0);
+    checkCount(positions, base.GetNumVertices());
+    bool hasIrregularFaces = false;
+    for (int f = 0; f < base.GetNumFaces(); ++f) hasIrregularFaces |= base.GetFaceVertices(f).size() != 4;
+    ResolveOptions(result.options, hasIrregularFaces, refiner.GetSchemeType());
     return check(RefinedTopology(refiner, result.options.level), positions, result);
 }
 

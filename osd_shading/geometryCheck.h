@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "osd_shading/export.h"
 #include "osd_shading/subdivisionShading.h"
 
 namespace osd_shading {
@@ -27,7 +28,7 @@ struct GeometryCheck {
 
     /// Whether every position is within `tolerance` of the model's size and every limit normal within 1000 times
     /// `tolerance` radians.
-    bool Passes(double tolerance) const;
+    OSD_SHADING_API bool Passes(double tolerance) const;
 };
 
 /// Compares `result`, shaded from `mesh` and `positions`, with what OpenSubdiv computes by other routes:

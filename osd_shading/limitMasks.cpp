@@ -175,18 +175,15 @@ void LimitStep<Real>::gatherRings(int numThreads) {
             }
             Far::ConstIndexArray const faces = _level->GetVertexFaces(v);
             Far::ConstLocalIndexArray const corners = _level->GetVertexFaceLocalIndices(v);
-            if (_isCatmark) {
-                int const numFaces = faces.size();
-                for (int i = 0; i < numFaces; ++i) {
-                    Far::ConstIndexArray const vertices = _level->GetFaceVertices(faces[i]);
-                    ring[i] = vertices[(corners[i] + 2) & 3];
-                    ring[numFaces + i] = vertices[(corners[i] + 1) & 3];
-                }
-            } else {
-                for (int i = 0; i < size; ++i) {
-                    ring[i] = _level->GetFaceVertices(faces[i])[corners[i] == 2 ? 0 : corners[i] + 1];
-                }
-            }
+            // As OpenSubdiv does, the second corner on counts as opposite in faces that are no quads (level 0).
+            auto const ahead = [&](int i, int steps) {
+                Far::ConstIndexArray const vertices = _level->GetFaceVertices(faces[i]);
+                int const corner = corners[i] + steps;
+                return vertices[corner < vertices.size() ? corner : corner - vertices.size()];
+            };
+            int const numFaces = faces.size();
+            for (int i = 0; i < numFaces && _isCatmark; ++i) *ring++ = ahead(i, 2);
+            for (int i = 0; i < numFaces; ++i) *ring++ = ahead(i, 1);
         }
     });
 }
@@ -280,10 +277,9 @@ void LimitStep<Real>::Apply(std::vector<T> const& field, std::vector<T>& limits,
             int const target = _special.targets[static_cast<std::size_t>(i)];
             if (!isNeeded(target)) continue;
             T sum{};
-            for (int t = _special.offsets[static_cast<std::size_t>(i)];
+            for (std::size_t t = _special.offsets[static_cast<std::size_t>(i)];
                  t < _special.offsets[static_cast<std::size_t>(i) + 1]; ++t) {
-                sum += _special.weights[static_cast<std::size_t>(t)] *
-                       field[static_cast<std::size_t>(_special.values[static_cast<std::size_t>(t)])];
+                sum += _special.weights[t] * field[static_cast<std::size_t>(_special.values[t])];
             }
             limits[static_cast<std::size_t>(target)] = sum;
         }
@@ -307,8 +303,8 @@ void LimitStep<Real>::MarkSources(ValueMarks const& marks, ValueMarks& sources) 
     sources.assign(static_cast<std::size_t>(_regions->NumValues()), 0);
     for (std::size_t i = 0; i < _special.targets.size(); ++i) {
         if (!marks[static_cast<std::size_t>(_special.targets[i])]) continue;
-        for (int t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
-            sources[static_cast<std::size_t>(_special.values[static_cast<std::size_t>(t)])] = 1;
+        for (std::size_t t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
+            sources[static_cast<std::size_t>(_special.values[t])] = 1;
         }
     }
     for (int v = 0; v < _regions->NumVertices(); ++v) {
@@ -322,9 +318,8 @@ void LimitStep<Real>::AppendTerms(int vertex, int value, std::vector<std::pair<i
     if (isSpecial(vertex)) {
         auto const found = std::lower_bound(_special.targets.begin(), _special.targets.end(), value);
         auto const i = static_cast<std::size_t>(found - _special.targets.begin());
-        for (int t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
-            terms.emplace_back(_special.values[static_cast<std::size_t>(t)],
-                               _special.weights[static_cast<std::size_t>(t)]);
+        for (std::size_t t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
+            terms.emplace_back(_special.values[t], _special.weights[t]);
         }
         return;
     }

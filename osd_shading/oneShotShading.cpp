@@ -9,6 +9,7 @@
 
 #include "osd_shading/blendWeights.h"
 #include "osd_shading/blendedNormals.h"
+#include "osd_shading/errors.h"
 #include "osd_shading/extraordinaryVertices.h"
 #include "osd_shading/limitFrames.h"
 #include "osd_shading/parallel.h"
@@ -273,7 +274,7 @@ void blend(ShadingOptions const& options, std::vector<int> const& missing, Shadi
     report.maxAngleValue = counts.largestValue;
 }
 
-/// The values whose N_S is needed: where b > 0, and where N_L has no other stand-in. Empty: all.
+/// The values whose N_S is needed: where b > 0, and where N_L has no other stand-in. Empty: all; nullopt: none.
 template <typename Real>
 std::optional<ValueMarks> markSubdivided(std::vector<Real> const& weights, std::vector<int> const& missing) {
     ValueMarks marks(weights.size());
@@ -294,11 +295,14 @@ ShadingResult<Real> ShadeOnce(RefinedTopology const& topology, ShadingInput<Real
     int const numThreads = options.execution.numThreads, lastLevel = options.level;
     ShadingResult<Real> result;
     result.options = options;
+    result.options.execution.progress = nullptr;  // what it holds is the caller's
     result.faceSize = topology.IsCatmark() ? 4 : 3;
 
     // Regions of each level, and its masks by region.
-    FieldLevels<Real> const levels(topology, std::min(options.startNormals.level, options.weights.level),
-                                   numThreads);
+    int const firstLevel = options.weights.scheme == WeightScheme::One
+                               ? options.startNormals.level
+                               : std::min(options.startNormals.level, options.weights.level);
+    FieldLevels<Real> const levels(topology, firstLevel, numThreads);
     CreaseRegions const& regions = levels.Regions(lastLevel);
     LimitStep<Real> const limit(topology, lastLevel, regions, numThreads);
     clock.End("masks and regions", 0.5);
@@ -327,6 +331,7 @@ ShadingResult<Real> ShadeOnce(RefinedTopology const& topology, ShadingInput<Real
             ? GatherUserNormals(topology, levels.Regions(0), input.vertexNormals, input.faceVaryingNormals)
             : ComputeStartNormals(options.startNormals.kind, topology, options.startNormals.level,
                                   levels.Regions(options.startNormals.level), points.start, numThreads);
+    points.start = {};
     result.report.zeroStartNormals = start.numZero;
     std::optional<ValueMarks> const marks = markSubdivided(result.blendWeights, limitNormals.missing);
     if (marks) {
@@ -354,9 +359,8 @@ ShadingResult<Real> ShadeOnce(RefinedTopology const& topology, ShadingInput<Real
         result.vertexData.push_back(RefineVertexData(topology, data, options.limits.positions));
     }
     for (std::size_t i = 0; i < input.faceVaryingData.size(); ++i) {
-        result.faceVaryingData.push_back(RefineFaceVaryingData(topology, static_cast<int>(i),
-                                                               input.faceVaryingData[i].values,
-                                                               options.limits.positions, result.refinerFaces));
+        result.faceVaryingData.push_back(RefineFaceVaryingData(
+            topology, static_cast<int>(i), input.faceVaryingData[i].values, options.limits.positions));
     }
     clock.End("faces, tags and primvars", 1);
 

@@ -4,10 +4,14 @@
 // Internal: not installed, not for users.
 
 #include <chrono>
+#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "osd_shading/refinedTopology.h"
-#include "osd_shading/subdivisionShading.h"
+#include "osd_shading/shadingInput.h"
+#include "osd_shading/shadingResult.h"
 
 namespace osd_shading {
 inline namespace v1 {

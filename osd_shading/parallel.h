@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -21,8 +20,8 @@ inline int NumChunks(int numItems) {
     return static_cast<int>((static_cast<std::int64_t>(numItems) + kChunkSize - 1) / kChunkSize);
 }
 
-/// Calls `body(begin, end, chunk)` for every chunk of [0, numItems), on `numThreads` threads at most. The first
-/// exception is rethrown when all threads have ended.
+/// Calls `body(begin, end, chunk)` for every chunk of [0, numItems), on `numThreads` threads at most. When
+/// all threads have ended, an exception of one of them is rethrown.
 template <typename Body>
 void ParallelFor(int numItems, int numThreads, Body const& body) {
     int const numChunks = NumChunks(numItems);
@@ -49,8 +48,8 @@ void ParallelFor(int numItems, int numThreads, Body const& body) {
     threads.reserve(failures.size());
     try {
         for (std::size_t i = 1; i < failures.size(); ++i) threads.emplace_back(work, i);
-    } catch (std::system_error const&) {
-        // A system that is short of threads gets the same result from fewer.
+    } catch (...) {
+        // A system that is short of threads or memory gets the same result from fewer threads.
     }
     work(0);
     for (std::thread& thread : threads) thread.join();

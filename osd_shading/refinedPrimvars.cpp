@@ -82,8 +82,7 @@ RefinedPrimvar<Real> RefineVertexData(RefinedTopology const& topology, PrimvarVi
 
 template <typename Real>
 RefinedFaceVarying<Real> RefineFaceVaryingData(RefinedTopology const& topology, int channel,
-                                               PrimvarView<Real> const& control, PositionKind positions,
-                                               std::vector<int> const& faces) {
+                                               PrimvarView<Real> const& control, PositionKind positions) {
     Far::PrimvarRefinerReal<Real> const refiner(topology.Refiner());
     RefinedFaceVarying<Real> refined;
     refined.width = control.width();
@@ -96,14 +95,10 @@ RefinedFaceVarying<Real> RefineFaceVaryingData(RefinedTopology const& topology, 
         [&](auto const& source, auto& target) { refiner.LimitFaceVarying(source, target, channel); });
 
     Far::TopologyLevel const& last = topology.Level(topology.LastLevel());
-    auto const append = [&](int face) {
-        Far::ConstIndexArray const indices = last.GetFaceFVarValues(face, channel);
+    for (int f = 0; f < last.GetNumFaces(); ++f) {
+        if (last.IsFaceHole(f)) continue;
+        Far::ConstIndexArray const indices = last.GetFaceFVarValues(f, channel);
         refined.faceIndices.insert(refined.faceIndices.end(), indices.begin(), indices.begin() + indices.size());
-    };
-    if (faces.empty()) {
-        for (int f = 0; f < last.GetNumFaces(); ++f) append(f);
-    } else {
-        for (int const f : faces) append(f);
     }
     return refined;
 }
@@ -112,7 +107,7 @@ RefinedFaceVarying<Real> RefineFaceVaryingData(RefinedTopology const& topology, 
     template RefinedPrimvar<Real> RefineVertexData(RefinedTopology const&, PrimvarView<Real> const&,               \
                                                    PositionKind);                                                  \
     template RefinedFaceVarying<Real> RefineFaceVaryingData(RefinedTopology const&, int, PrimvarView<Real> const&, \
-                                                            PositionKind, std::vector<int> const&);
+                                                            PositionKind);
 OSD_SHADING_INSTANTIATE(float)
 OSD_SHADING_INSTANTIATE(double)
 #undef OSD_SHADING_INSTANTIATE

@@ -14,11 +14,10 @@ template <typename Real>
 RefinedPrimvar<Real> RefineVertexData(RefinedTopology const& topology, PrimvarView<Real> const& control,
                                       PositionKind positions);
 
-/// A face-varying primvar of channel `channel`, for the faces `faces` of the last level (empty: all).
+/// A face-varying primvar of channel `channel`, for the faces of the last level that are no holes.
 template <typename Real>
 RefinedFaceVarying<Real> RefineFaceVaryingData(RefinedTopology const& topology, int channel,
-                                               PrimvarView<Real> const& control, PositionKind positions,
-                                               std::vector<int> const& faces);
+                                               PrimvarView<Real> const& control, PositionKind positions);
 
 }  // namespace v1
 }  // namespace osd_shading

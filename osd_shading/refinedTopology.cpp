@@ -154,6 +154,7 @@ RefinedTopology::RefinedTopology(Far::TopologyRefiner const& base, int level) {
 }
 
 void RefinedTopology::refine(int level) {
+    assert(level >= 0 && level <= 15);
     _lastLevel = level;
     if (level > 0) {
         Far::TopologyRefiner::UniformOptions options(level);

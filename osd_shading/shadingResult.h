@@ -71,10 +71,11 @@ struct ShadingReport {
     std::int64_t subdividedValues = 0;    ///< values whose N_S was computed at the last level
     std::int64_t zeroStartNormals = 0;    ///< start normals whose sum vanished
     std::int64_t zeroNormals = 0;         ///< values whose N_B is zero
-    std::int64_t fallbackNormals = 0;     ///< values whose limit tangents were degenerate
-    std::int64_t opposedNormals = 0;      ///< values with b > 0 and N_L . N_S < 0
-    double minSubdividedLength = -1;      ///< smallest |N_S| before normalising where b > 0; -1: b > 0 nowhere
-    double meanAngle = 0;                 ///< between N_L and N_B, mean over the values
+    std::int64_t fallbackNormals =
+        0;  ///< values whose limit tangents were degenerate, or that only N_S gave a normal
+    std::int64_t opposedNormals = 0;  ///< values with b > 0 and N_L . N_S < 0
+    double minSubdividedLength = -1;  ///< smallest |N_S| before normalising where b > 0; -1: b > 0 nowhere
+    double meanAngle = 0;             ///< between N_L and N_B, mean over the values
     double maxAngle = 0;
     std::int64_t maxAngleValue = -1;                      ///< the value where it is largest; -1: there is no value
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time of each stage, in order
@@ -98,10 +99,11 @@ struct ShadingResult {
     std::vector<int> faceVertices;  ///< faceSize per face
     std::vector<int> faceValues;    ///< faceSize per face: the value of each corner
     std::vector<int> baseFaces;     ///< per face: face of the control mesh
-    std::vector<int> refinerFaces;  ///< per face: OpenSubdiv's face at level L; empty: the same number
+    std::vector<int>
+        refinerFaces;  ///< per face: OpenSubdiv's face at level L; empty without holes: the same number
 
     std::vector<int> valueVertices;             ///< per value: its vertex
-    std::vector<Vec3<Real>> limitNormals;       ///< per value: N_L
+    std::vector<Vec3<Real>> limitNormals;       ///< per value: N_L, unit length or zero
     std::vector<Vec3<Real>> subdividedNormals;  ///< per value: N_S, zero where b = 0
     std::vector<Vec3<Real>> blendedNormals;     ///< per value: N_B, unit length or zero
     std::vector<Real> blendWeights;             ///< per value: limit of b, in [0, 1]

@@ -2,6 +2,8 @@
 #include "osd_shading/startNormals.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "osd_shading/extraordinaryVertices.h"
 #include "osd_shading/vectorMath.h"
@@ -75,12 +77,20 @@ StartNormals<Real> GatherUserNormals(RefinedTopology const& topology, CreaseRegi
     StartNormals<Real> start;
     start.normals.resize(numValues);
     std::vector<Real> added(numValues, 0);
+    // Scaled, so that sums of huge normals stay numbers.
+    PointView<Real> const& given = vertexNormals.empty() ? faceVaryingNormals : vertexNormals;
+    Real largest = 0;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        Vec3<Real> const n = given[i];
+        largest = std::fmax(largest, std::fmax(std::fabs(n.x), std::fmax(std::fabs(n.y), std::fabs(n.z))));
+    }
+    Real const scale = largest > 0 ? 1 / std::fmax(largest, std::numeric_limits<Real>::min()) : Real(1);
     std::size_t corner = 0;
     for (int f = 0; f < level.GetNumFaces(); ++f) {
         Far::ConstIndexArray const vertices = level.GetFaceVertices(f);
         for (int i = 0; i < vertices.size(); ++i, ++corner) {
-            Vec3<Real> const normal = vertexNormals.empty() ? faceVaryingNormals[corner]
-                                                            : vertexNormals[static_cast<std::size_t>(vertices[i])];
+            Vec3<Real> const normal =
+                scale * given[vertexNormals.empty() ? corner : static_cast<std::size_t>(vertices[i])];
             auto const value = static_cast<std::size_t>(regions.CornerValue(f, i));
             start.normals[value] += normal;
             added[value] += Length(normal);

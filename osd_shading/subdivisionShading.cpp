@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "osd_shading/subdivisionShading.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -75,6 +76,12 @@ void addPrimvars(ShadingInput<Real> const& input, MeshSize& size) {
     for (PrimvarView<Real> const& data : input.vertexData) size.vertexDataWidth += data.width();
 }
 
+/// Near a crease each vertex round an n-gon has a row over all its corners.
+void addNgon(int numCorners, ShadingOptions const& options, MeshSize& size) {
+    if (numCorners <= 4 || std::min(options.startNormals.level, options.weights.level) > 0) return;
+    size.numNgonTerms += static_cast<std::int64_t>(numCorners) * numCorners;
+}
+
 double numFacesAt(MeshSize const& size, int level) {
     if (level == 0) return static_cast<double>(size.numFaces);
     double const first = size.scheme == Sdc::SCHEME_CATMARK ? static_cast<double>(size.numFaceCorners)
@@ -116,7 +123,8 @@ std::uint64_t EstimateShadingBytes(MeshSize const& size, int level, std::size_t 
     double const bytes = perFace * numFacesAt(size, level) +
                          perCreaseEdge * edges * static_cast<double>(size.numCreases) +
                          perBoundaryEdge * edges * static_cast<double>(size.numFaceCorners) +
-                         perVertex * static_cast<double>(size.numVertices) + 2e6;
+                         perVertex * static_cast<double>(size.numVertices) +
+                         2.0 * static_cast<double>(4 + realSize) * static_cast<double>(size.numNgonTerms) + 2e6;
     constexpr double kMost = 9.2e18;
     return static_cast<std::uint64_t>(bytes < kMost ? bytes : kMost);
 }
@@ -158,13 +166,15 @@ ShadingResult<Real> ShadeSubdivision(ControlMesh const& mesh, ShadingInput<Real>
     size.numVertices = mesh.numVertices;
     size.numFaces = static_cast<std::int64_t>(mesh.faceSizes.size());
     size.numFaceCorners = static_cast<std::int64_t>(mesh.faceVertices.size());
-    size.numCreases = static_cast<std::int64_t>(mesh.creaseSharpness.size());
+    // Entries may repeat an edge; there are no more edges than corners.
+    size.numCreases = static_cast<std::int64_t>(std::min(mesh.creaseSharpness.size(), mesh.faceVertices.size()));
+    for (int const numCorners : mesh.faceSizes) addNgon(numCorners, resolved, size);
     addPrimvars(input, size);
     checkMemory(size, sizeof(Real), resolved);
     clock.End("validation", 0.02);
 
     RefinedTopology const topology(mesh, resolved.level, indices, counts);
-    clock.End("OpenSubdiv's refining", 0.3);
+    clock.End("refining", 0.3);
     return ShadeOnce(topology, input, resolved, clock);
 }
 
@@ -203,12 +213,13 @@ ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, Shadin
     for (int e = 0; e < base.GetNumEdges(); ++e) {
         size.numCreases += base.GetEdgeSharpness(e) > 0 && !base.IsEdgeBoundary(e);
     }
+    for (int f = 0; f < base.GetNumFaces(); ++f) addNgon(base.GetFaceVertices(f).size(), resolved, size);
     addPrimvars(input, size);
     checkMemory(size, sizeof(Real), resolved);
     clock.End("validation", 0.02);
 
     RefinedTopology const topology(refiner, resolved.level);
-    clock.End("OpenSubdiv's refining", 0.3);
+    clock.End("refining", 0.3);
     return ShadeOnce(topology, input, resolved, clock);
 }
 

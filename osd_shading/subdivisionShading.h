@@ -12,6 +12,7 @@
 #include "osd_shading/controlMesh.h"
 #include "osd_shading/errors.h"
 #include "osd_shading/export.h"
+#include "osd_shading/shadingInput.h"
 #include "osd_shading/shadingOptions.h"
 #include "osd_shading/shadingResult.h"
 #include "osd_shading/views.h"
@@ -20,26 +21,6 @@ namespace osd_shading {
 inline namespace v1 {
 
 namespace Far = OpenSubdiv::OPENSUBDIV_VERSION::Far;
-
-/// A face-varying primvar of the control mesh (UVs).
-template <typename Real>
-struct FaceVaryingView {
-    ArrayView<int>
-        indices;  ///< per face corner: a value. With a TopologyRefiner: empty, channel i is the refiner's
-    PrimvarView<Real> values;
-};
-
-/// The numbers on a control mesh. Views over the caller's memory; only `positions` is needed.
-template <typename Real>
-struct ShadingInput {
-    PointView<Real> positions;  ///< one per control vertex, finite
-
-    PointView<Real> vertexNormals;       ///< StartNormalKind::User: one per control vertex, or
-    PointView<Real> faceVaryingNormals;  ///< one per face corner, in the order of the faces' vertices
-
-    std::vector<PrimvarView<Real>> vertexData;           ///< refined as positions are
-    std::vector<FaceVaryingView<Real>> faceVaryingData;  ///< refined by OpenSubdiv's face-varying rules
-};
 
 /// Shades a control mesh once, level by level.
 ///
@@ -68,6 +49,7 @@ struct MeshSize {
     std::int64_t numFaces = 0;
     std::int64_t numFaceCorners = 0;
     std::int64_t numCreases = 0;        ///< interior edges with a sharpness
+    std::int64_t numNgonTerms = 0;      ///< squares of the sizes of n-gons, where fields start at level 0
     std::int64_t numFaceVarying = 0;    ///< face-varying channels
     std::int64_t faceVaryingWidth = 0;  ///< numbers per value, over all of them
     std::int64_t vertexDataWidth = 0;   ///< numbers per vertex, over all vertex primvars

@@ -75,8 +75,8 @@ constexpr bool IsZero(Vec3<Real> const& a) {
 }
 
 /// Angle between two directions in radians, exact near 0 and pi too.
-template <typename Real>
-double AngleBetween(Vec3<Real> const& a, Vec3<Real> const& b) {
+template <typename RealA, typename RealB>
+double AngleBetween(Vec3<RealA> const& a, Vec3<RealB> const& b) {
     Vec3<double> const p{double(a.x), double(a.y), double(a.z)}, q{double(b.x), double(b.y), double(b.z)};
     return std::atan2(Length(Cross(p, q)), Dot(p, q));
 }

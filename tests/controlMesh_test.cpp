@@ -77,12 +77,19 @@ TEST(ControlMesh, TheLargestFaceIsAccepted) {
 }
 
 TEST(ControlMesh, TheLargestValenceIsAccepted) {
+    // An open fan has one edge more than faces.
     Shape shape;
     shape.Vertex(0, 0, 0).Vertex(0, 0, 0);
-    for (int i = 0; i < 65535; ++i) shape.Vertex(0, 0, 0).Face({0, i + 1, i + 2});
+    for (int i = 0; i < 65534; ++i) shape.Vertex(0, 0, 0).Face({0, i + 1, i + 2});
     EXPECT_EQ(ErrorIn(shape), "no error");
-    shape.Vertex(0, 0, 0).Face({0, 65536, 65537});
+    shape.Face({0, 65535, 1});  // closes it
+    EXPECT_EQ(ErrorIn(shape), "no error");
+    shape.Vertex(0, 0, 0).Face({0, 1, 65536});
     EXPECT_EQ(ErrorIn(shape), "vertex 0 has more than 65535 faces, more than OpenSubdiv takes");
+    shape.faceSizes.pop_back();
+    shape.faceVertices.resize(shape.faceVertices.size() - 3);
+    shape.faceVertices.back() = 65536;  // opens it again
+    EXPECT_EQ(ErrorIn(shape), "vertex 0 has more than 65535 edges, more than OpenSubdiv takes");
 }
 
 TEST(ControlMesh, NullViewsAreNamed) {

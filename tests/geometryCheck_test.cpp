@@ -170,6 +170,45 @@ TEST(GeometryCheck, FloatResultsAgreeWithOpenSubdivInFloat) {
     }
 }
 
+TEST(GeometryCheck, FloatResultsOfFurtherModelsAgreeWithOpenSubdivInDouble) {
+    std::vector<std::filesystem::path> const files = objFilesIn(OSD_SHADING_EXTRA_MODELS);
+    if (files.empty()) GTEST_SKIP() << "there are no further models in " << OSD_SHADING_EXTRA_MODELS;
+    for (auto const& file : files) {
+        std::optional<io::Model> const model = readUnlessRefused(file);
+        if (!model) continue;
+        std::vector<float> const points(model->positions.begin(), model->positions.end());
+        ControlMesh const mesh = model->Mesh(model->Rules({}));
+        ShadingInput<float> input;
+        input.positions = {points.data(), points.size() / 3};
+        GeometryCheck const check =
+            CheckGeometry(mesh, input.positions, ShadeSubdivision(mesh, input, PaperPreset(2)));
+        // Some ten roundings of 6e-8 a level, at numbers not much larger than the model.
+        EXPECT_TRUE(check.Passes(1e-6)) << file << "\n" << describe(check);
+    }
+}
+
+TEST(GeometryCheck, AResultOfAnImpossibleLevelIsRefused) {
+    Shape const cube = shapes::Cube();
+    std::vector<Vec3<double>> const points = PointsOf<double>(cube);
+    for (int const level : {-3, -1, 16, 40}) {
+        ShadingResult<double> result;
+        result.options.level = level;
+        EXPECT_EQ(ErrorOf<InvalidOptions>([&] { CheckGeometry<double>(cube.Mesh(), points, result); }),
+                  "level is " + std::to_string(level) + "; it must be 0 to 15");
+    }
+}
+
+TEST(GeometryCheck, NonManifoldMeshesPassWhateverBfrMakesOfThem) {
+    for (std::uint64_t seed = 0; seed < SampleSize(300); ++seed) {
+        shapes::RandomShapeOptions options;
+        options.triangles = seed % 2 == 1;
+        options.nonManifold = true;
+        Shape const shape = shapes::RandomShape(40000 + seed, options);
+        GeometryCheck const check = checkShape<double>(shape, PaperPreset(1 + static_cast<int>(seed % 3)));
+        EXPECT_TRUE(check.Passes(1e-12)) << "seed " << 40000 + seed << "\n" << describe(check);
+    }
+}
+
 TEST(GeometryCheck, ANonManifoldCreaseOfManyFacesIsCheckedWithoutOpenSubdivsTangents) {
     // Its Limit() would write past its own buffer: more faces than edges meet at the crease.
     Shape const shape = shapes::FinnedGrid();

@@ -60,6 +60,11 @@ using Creases = std::map<std::pair<int, int>, float>;
 
 }  // namespace
 
+TEST(ObjReader, EachFaceKnowsItsLine) {
+    io::Model const model = io::ParseObj("v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 3\n# two\nf 1 \\\n 3 2\n", "m.obj");
+    EXPECT_EQ(model.faceLines, (std::vector<std::int64_t>{5, 7}));
+}
+
 TEST(ObjReader, ATriangleWithUvsAndNormalsIsReadAsItStands) {
     Model const model = parse(kTriangle + "vt 0 0.5\nvt 1\nvt 1 1 7\nvn 0 0 1\nf 1/3/1 2/1/1 3/2/1\n");
     EXPECT_EQ(model.name, "m");

@@ -375,4 +375,23 @@ TEST(OneShotShading, TrianglesInLoopAreRegularAtLevelZero) {
               "level is 0, but the mesh has faces other than quads, where limits exist from level 1 on");
 }
 
+TEST(OneShotShading, WhereAllFacesAreHolesThePrimvarsHaveNoneEither) {
+    Shape const quad = shapes::LoneQuad().Boundary(Sdc::Options::VTX_BOUNDARY_NONE);
+    std::vector<Vec3<double>> const points = PointsOf<double>(quad);
+    std::vector<int> const indices{0, 1, 2, 3};
+    std::vector<double> const uvs{0, 0, 1, 0, 1, 1, 0, 1};
+    ShadingInput<double> input;
+    input.positions = points;
+    input.faceVaryingData.push_back({indices, {uvs.data(), 4, 2}});
+    ShadingResult<double> const result = ShadeSubdivision(quad.Mesh(), input, PaperPreset(2));
+    EXPECT_EQ(result.NumFaces(), 0);
+    EXPECT_TRUE(result.faceVaryingData[0].faceIndices.empty());
+}
+
+TEST(OneShotShading, TheResultKeepsNothingOfTheCallersProgress) {
+    ShadingOptions options = PaperPreset(1);
+    options.execution.progress = [](double) { return true; };
+    EXPECT_FALSE(Shade<double>(shapes::Cube(), options).options.execution.progress);
+}
+
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -330,8 +331,8 @@ TEST(CommandLine, StartNormalsComeFromTheFileAndAMissingOneNamesTheFace) {
     EXPECT_EQ(ReportOf({model, "--preset", "smooth", "--start-normals", "file"})["options"]["weights"], "one");
 
     WriteBytes(model, points + "f 1//1 2//2 3//1 4//2\nf 2//2 5 6//2 3//1\n");
-    ExpectRefused({model, "--start-normals", "file"}, "face 1 has a corner without a normal");
-    ExpectRefused({ModelPath("cube_dart"), "--start-normals", "file"}, "face 0 has a corner without a normal");
+    ExpectRefused({model, "--start-normals", "file"}, ": the face has a corner without a normal");
+    ExpectRefused({ModelPath("cube_dart"), "--start-normals", "file"}, ": the face has a corner without a normal");
 }
 
 TEST(CommandLine, BadModelsAreRefusedInOneLineThatNamesTheFile) {
@@ -350,8 +351,26 @@ TEST(CommandLine, BadModelsAreRefusedInOneLineThatNamesTheFile) {
         ExpectRefused({model}, part);
     }
     ExpectRefused({folder.Path()}, folder.Path());
-    ExpectRefused({ModelPath("mug"), "--scheme", "loop"}, "mug.obj: face 0");
+    ExpectRefused({""}, "MODEL");
+    ExpectRefused({ModelPath("mug"), "--scheme", "loop"}, "mug.obj:454: the face has 4 vertices; Loop");
     ExpectRefused({ModelPath("pencil_ngons"), "--level", "0"}, "level");
+}
+
+TEST(CommandLine, NumbersTooLargeForFloatAreNamedAndNeverInTheResult) {
+    TemporaryFolder const folder;
+    std::string const model = folder.File("large.obj"), out = folder.File("large.obj.obj");
+    std::string const face = "f 1/1/1 2/2/1 3/1/1 4/2/1\n", rest = "vt 0 0\nvt 1 0\nvn 0 0 1\n";
+    Words const inFloat = {model, "--precision", "float", "--start-normals", "file", "-o", out};
+    for (auto const& [text, part] : std::vector<std::pair<std::string, std::string>>{
+             {"v 0 0 0\nv 1 0 0\nv 1e99 1 0\nv 0 1 0\n" + rest + face, "the position of vertex 2 (from 0)"},
+             {std::string(kOneQuad) + "vt 0 0\nvt 1 1e39\nvn 0 0 1\n" + face, "vt 1 (from 0)"},
+             {std::string(kOneQuad) + "vt 0 0\nvt 1 0\nvn 0 0 -1e39\n" + face, "vn 0 (from 0)"},
+         }) {
+        WriteBytes(model, text);
+        ExpectRefused(inFloat, part);
+        EXPECT_EQ(RunTool({model, "-o", out, "--quiet"}).status, 0);  // double holds them
+        fs::remove(out);
+    }
 }
 
 TEST(CommandLine, ReportsWarningsOfTheReaderOneALine) {
@@ -496,6 +515,13 @@ TEST(OutputTarget, ThatCanNotBeWrittenIsRefusedAndNothingIsLeft) {
     fs::create_directory(folder.File("folder.ply"));
     ExpectRefused({model, "-o", folder.File("folder.ply")}, "folder.ply");
     EXPECT_EQ(folder.NumFiles(), 1U);
+    if (geteuid() != 0) {  // root may write everything
+        std::string const locked = folder.File("locked.ply");
+        WriteBytes(locked, "old");
+        fs::permissions(locked, fs::perms::owner_read);
+        ExpectRefused({folder.File("absent.obj"), "-o", locked}, "locked.ply");  // before the model is read
+        EXPECT_EQ(ReadBytes(locked), "old");
+    }
     if (fs::exists("/dev/full")) {
         fs::create_symlink("/dev/full", folder.File("full.ply"));
         ExpectRefused({model, "-o", folder.File("full.ply"), "--quiet"}, "full.ply");
@@ -515,6 +541,13 @@ TEST(OutputTarget, NeverReplacesTheModelNorTheReport) {
     ExpectRefused({model, "-o", folder.File("new.ply"), "--report", folder.File("new.ply")}, "--report");
     EXPECT_EQ(ReadBytes(model), text);
     EXPECT_EQ(folder.NumFiles(), 1U);
+
+    // Nor the other file that is read.
+    std::string const sharp = folder.File("sharp.ply");
+    WriteBytes(sharp, "fs 1\n");
+    ExpectRefused({model, "--sharpness", sharp, "-o", sharp}, "-o");
+    ExpectRefused({model, "--sharpness", sharp, "--report", sharp}, "--report");
+    EXPECT_EQ(ReadBytes(sharp), "fs 1\n");
 }
 
 TEST(OutputTarget, StandardOutputHasTheResultAndTheTableGoesElsewhere) {

@@ -304,11 +304,16 @@ std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
     }
     if (line.ascii && line.format != OutputFormat::Ply) Refuse("--ascii", "only PLY output has a text form");
     if (line.cage && line.format != OutputFormat::Usda) Refuse("--cage", "only USD output can hold the cage");
+    if (line.modelFile.empty()) Refuse("MODEL", "the name is empty");
     for (char const* option : {"--sharpness", "--report"}) {
         if (app.count(option) > 0 && app[option]->as<std::string>().empty()) Refuse(option, "the name is empty");
     }
     if (IsSameFile(line.outputFile, line.modelFile)) Refuse("-o", "would replace the model");
     if (IsSameFile(line.reportFile, line.modelFile)) Refuse("--report", "would replace the model");
+    if (IsSameFile(line.outputFile, line.sharpnessFile)) Refuse("-o", "would replace the file of --sharpness");
+    if (IsSameFile(line.reportFile, line.sharpnessFile)) {
+        Refuse("--report", "would replace the file of --sharpness");
+    }
     if (IsSameFile(line.reportFile, line.outputFile)) Refuse("--report", "names the same file as -o");
     return line;
 }

@@ -75,6 +75,8 @@ void RequireWritable(std::string const& path) {
     }
     // A new file is made in the folder and renamed: its permissions count. Links are followed.
     fs::path const target = fs::weakly_canonical(path, ignored);
+    // An old file that its owner made read-only stays.
+    if (access(path.c_str(), F_OK) == 0 && access(path.c_str(), W_OK) != 0) refuse(errno);
     fs::path const folder = (target.empty() ? fs::path(path) : target).parent_path();
     if (!folder.empty() && access(folder.c_str(), W_OK | X_OK) != 0) refuse(errno);
 }

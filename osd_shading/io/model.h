@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +20,10 @@ constexpr float kInfiniteSharpness = 10.0f;
 struct Model {
     std::string name;  ///< of the file, without folder and suffix
 
-    std::vector<double> positions;  ///< 3 per vertex
-    std::vector<int> faceSizes;     ///< per face
-    std::vector<int> faceVertices;  ///< per face corner
+    std::vector<double> positions;        ///< 3 per vertex
+    std::vector<int> faceSizes;           ///< per face
+    std::vector<int> faceVertices;        ///< per face corner
+    std::vector<std::int64_t> faceLines;  ///< per face: its line in the file, for messages
 
     std::vector<int> creaseVertices;  ///< 2 per crease entry; an edge may stand more than once: the highest counts
     std::vector<float> creaseSharpness;  ///< 0 to 10; 10 is infinite

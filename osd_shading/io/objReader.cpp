@@ -178,6 +178,7 @@ private:
         }
         checkRepeats(first, size);
         _model.faceSizes.push_back(static_cast<int>(size));
+        _model.faceLines.push_back(_line.Line());
     }
 
     void checkRepeats(std::size_t first, std::size_t size) {
