@@ -11,6 +11,40 @@ namespace osd_shading {
 inline namespace v1 {
 
 template <typename Real>
+template <typename T>
+void ValueRows<Real>::Apply(std::vector<T> const& field, std::vector<T>& result, ValueMarks const& marks,
+                            int numThreads) const {
+    ParallelFor(static_cast<int>(targets.size()), numThreads, [&](int begin, int end, int) {
+        for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row) {
+            auto const target = static_cast<std::size_t>(targets[row]);
+            if (!marks.empty() && !marks[target]) continue;
+            T sum{};
+            for (std::size_t t = offsets[row]; t < offsets[row + 1]; ++t) {
+                sum += weights[t] * field[static_cast<std::size_t>(values[t])];
+            }
+            result[target] = sum;
+        }
+    });
+}
+
+template <typename Real>
+void ValueRows<Real>::MarkSources(ValueMarks const& marks, ValueMarks& sources) const {
+    for (std::size_t row = 0; row < targets.size(); ++row) {
+        if (!marks[static_cast<std::size_t>(targets[row])]) continue;
+        for (std::size_t t = offsets[row]; t < offsets[row + 1]; ++t) {
+            sources[static_cast<std::size_t>(values[t])] = 1;
+        }
+    }
+}
+
+template <typename Real>
+void ValueRows<Real>::AppendTerms(int target, std::vector<std::pair<int, Real>>& terms) const {
+    auto const found = std::lower_bound(targets.begin(), targets.end(), target);
+    auto const row = static_cast<std::size_t>(found - targets.begin());
+    for (std::size_t t = offsets[row]; t < offsets[row + 1]; ++t) terms.emplace_back(values[t], weights[t]);
+}
+
+template <typename Real>
 RegionRule<Real>::RegionRule(Far::TopologyLevel const& level, CreaseRegions const& regions)
     : _level(level),
       _regions(regions),
@@ -171,18 +205,7 @@ template <typename T>
 void FieldStep<Real>::Apply(std::vector<T> const& parentField, std::vector<T>& childField, ValueMarks const& marks,
                             int numThreads) const {
     auto const isNeeded = [&](int value) { return marks.empty() || marks[static_cast<std::size_t>(value)]; };
-    ParallelFor(static_cast<int>(_special.targets.size()), numThreads, [&](int begin, int end, int) {
-        for (int i = begin; i < end; ++i) {
-            int const target = _special.targets[static_cast<std::size_t>(i)];
-            if (!isNeeded(target)) continue;
-            T sum{};
-            for (std::size_t t = _special.offsets[static_cast<std::size_t>(i)];
-                 t < _special.offsets[static_cast<std::size_t>(i) + 1]; ++t) {
-                sum += _special.weights[t] * parentField[static_cast<std::size_t>(_special.values[t])];
-            }
-            childField[static_cast<std::size_t>(target)] = sum;
-        }
-    });
+    _special.Apply(parentField, childField, marks, numThreads);
     auto const applyTo = [&](int first, int last) {
         ParallelFor(last - first, numThreads, [&](int begin, int end, int) {
             for (int c = first + begin; c < first + end; ++c) {
@@ -204,12 +227,7 @@ void FieldStep<Real>::Apply(std::vector<T> const& parentField, std::vector<T>& c
 template <typename Real>
 void FieldStep<Real>::MarkSources(ValueMarks& childMarks, ValueMarks& parentMarks) const {
     parentMarks.assign(static_cast<std::size_t>(_parent->NumValues()), 0);
-    for (std::size_t i = 0; i < _special.targets.size(); ++i) {
-        if (!childMarks[static_cast<std::size_t>(_special.targets[i])]) continue;
-        for (std::size_t t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
-            parentMarks[static_cast<std::size_t>(_special.values[t])] = 1;
-        }
-    }
+    _special.MarkSources(childMarks, parentMarks);
     auto const markFor = [&](int first, int last) {
         for (int c = first; c < last; ++c) {
             if (!_isSpecial.empty() && _isSpecial[static_cast<std::size_t>(c)]) continue;
@@ -236,11 +254,7 @@ void FieldStep<Real>::MarkSources(ValueMarks& childMarks, ValueMarks& parentMark
 template <typename Real>
 void FieldStep<Real>::AppendTerms(int childVertex, int childValue, std::vector<std::pair<int, Real>>& terms) const {
     if (!_isSpecial.empty() && _isSpecial[static_cast<std::size_t>(childVertex)]) {
-        auto const found = std::lower_bound(_special.targets.begin(), _special.targets.end(), childValue);
-        auto const i = static_cast<std::size_t>(found - _special.targets.begin());
-        for (std::size_t t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
-            terms.emplace_back(_special.values[t], _special.weights[t]);
-        }
+        _special.AppendTerms(childValue, terms);
         return;
     }
     auto const row = static_cast<std::size_t>(_masks->Row(childVertex));
@@ -306,6 +320,11 @@ FieldLevels<Real>::FieldLevels(RefinedTopology const& topology, int firstLevel, 
 }
 
 #define OSD_SHADING_INSTANTIATE(Real)                                                                            \
+    template struct ValueRows<Real>;                                                                             \
+    template void ValueRows<Real>::Apply(std::vector<Real> const&, std::vector<Real>&, ValueMarks const&, int)   \
+        const;                                                                                                   \
+    template void ValueRows<Real>::Apply(std::vector<Vec3<Real>> const&, std::vector<Vec3<Real>>&,               \
+                                         ValueMarks const&, int) const;                                          \
     template class RegionRule<Real>;                                                                             \
     template class FieldStep<Real>;                                                                              \
     template class FieldLevels<Real>;                                                                            \

@@ -22,6 +22,16 @@ struct ValueRows {
     std::vector<std::size_t> offsets{0};  ///< a face of many corners near a crease makes rows as long
     std::vector<int> values;
     std::vector<Real> weights;
+
+    /// Sets the targets that `marks` asks for, of type T (Real or Vec3<Real>).
+    template <typename T>
+    void Apply(std::vector<T> const& field, std::vector<T>& result, ValueMarks const& marks, int numThreads) const;
+
+    /// Marks in `sources` the values of the rows of marked targets.
+    void MarkSources(ValueMarks const& marks, ValueMarks& sources) const;
+
+    /// Appends the terms (value, weight) of the row of `target`, which must have one.
+    void AppendTerms(int target, std::vector<std::pair<int, Real>>& terms) const;
 };
 
 /// Restricts a mask over vertices to regions: the child-region rule.

@@ -272,18 +272,7 @@ template <typename T>
 void LimitStep<Real>::Apply(std::vector<T> const& field, std::vector<T>& limits, ValueMarks const& marks,
                             int numThreads) const {
     auto const isNeeded = [&](int value) { return marks.empty() || marks[static_cast<std::size_t>(value)]; };
-    ParallelFor(static_cast<int>(_special.targets.size()), numThreads, [&](int begin, int end, int) {
-        for (int i = begin; i < end; ++i) {
-            int const target = _special.targets[static_cast<std::size_t>(i)];
-            if (!isNeeded(target)) continue;
-            T sum{};
-            for (std::size_t t = _special.offsets[static_cast<std::size_t>(i)];
-                 t < _special.offsets[static_cast<std::size_t>(i) + 1]; ++t) {
-                sum += _special.weights[t] * field[static_cast<std::size_t>(_special.values[t])];
-            }
-            limits[static_cast<std::size_t>(target)] = sum;
-        }
-    });
+    _special.Apply(field, limits, marks, numThreads);
     ParallelFor(_regions->NumVertices(), numThreads, [&](int begin, int end, int) {
         for (int v = begin; v < end; ++v) {
             if (isSpecial(v)) continue;
@@ -301,12 +290,7 @@ void LimitStep<Real>::Apply(std::vector<T> const& field, std::vector<T>& limits,
 template <typename Real>
 void LimitStep<Real>::MarkSources(ValueMarks const& marks, ValueMarks& sources) const {
     sources.assign(static_cast<std::size_t>(_regions->NumValues()), 0);
-    for (std::size_t i = 0; i < _special.targets.size(); ++i) {
-        if (!marks[static_cast<std::size_t>(_special.targets[i])]) continue;
-        for (std::size_t t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
-            sources[static_cast<std::size_t>(_special.values[t])] = 1;
-        }
-    }
+    _special.MarkSources(marks, sources);
     for (int v = 0; v < _regions->NumVertices(); ++v) {
         if (isSpecial(v) || !marks[static_cast<std::size_t>(_regions->FirstValue(v))]) continue;
         forEachVertexTerm(v, [&](int u, Real) { sources[static_cast<std::size_t>(_regions->FirstValue(u))] = 1; });
@@ -316,11 +300,7 @@ void LimitStep<Real>::MarkSources(ValueMarks const& marks, ValueMarks& sources) 
 template <typename Real>
 void LimitStep<Real>::AppendTerms(int vertex, int value, std::vector<std::pair<int, Real>>& terms) const {
     if (isSpecial(vertex)) {
-        auto const found = std::lower_bound(_special.targets.begin(), _special.targets.end(), value);
-        auto const i = static_cast<std::size_t>(found - _special.targets.begin());
-        for (std::size_t t = _special.offsets[i]; t < _special.offsets[i + 1]; ++t) {
-            terms.emplace_back(_special.values[t], _special.weights[t]);
-        }
+        _special.AppendTerms(value, terms);
         return;
     }
     forEachVertexTerm(vertex, [&](int u, Real weight) { terms.emplace_back(_regions->FirstValue(u), weight); });
