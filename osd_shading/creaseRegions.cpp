@@ -225,16 +225,9 @@ void FindRegionFans(Far::TopologyLevel const& level, CreaseRegions const& region
     int start = 0;
     if (isManifold && level.GetVertexEdges(vertex).size() == numFaces) {
         Far::ConstIndexArray const edges = level.GetVertexEdges(vertex);
-        while (start < numFaces && !IsSharpEdge(level, edges[start])) ++start;
-        if (start == numFaces) {
-            start = 0;
-            fans[0].isClosed = true;
-        }
-        // One sharp edge (a dart) bounds nothing: the ring is a full one.
-        if (fans.size() == 1) {
-            start = 0;
-            fans[0].isClosed = true;
-        }
+        // One sharp edge (a dart) bounds nothing: the ring is a full one, as without any.
+        fans[0].isClosed = fans.size() == 1;
+        while (!fans[0].isClosed && !IsSharpEdge(level, edges[start])) ++start;
     }
     for (int i = 0; i < numFaces; ++i) {
         int const local = start + i < numFaces ? start + i : start + i - numFaces;

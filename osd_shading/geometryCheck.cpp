@@ -400,9 +400,7 @@ template <typename Real>
 GeometryCheck CheckGeometry(ControlMesh const& mesh, PointView<Real> positions, ShadingResult<Real> const& result) {
     ValidateControlMesh(mesh);
     checkCount(positions, mesh.numVertices);
-    bool hasIrregularFaces = false;
-    for (int const size : mesh.faceSizes) hasIrregularFaces |= size != 4;
-    ResolveOptions(result.options, hasIrregularFaces, mesh.rules.scheme);
+    ResolveOptions(result.options, mesh);  // refuses what no result has
     return check(RefinedTopology(mesh, result.options.level), positions, result);
 }
 
@@ -410,11 +408,8 @@ template <typename Real>
 GeometryCheck CheckGeometry(Far::TopologyRefiner const& refiner, PointView<Real> positions,
                             ShadingResult<Real> const& result) {
     ValidateRefiner(refiner);
-    Far::TopologyLevel const base = refiner.GetLevel(0);
-    checkCount(positions, base.GetNumVertices());
-    bool hasIrregularFaces = false;
-    for (int f = 0; f < base.GetNumFaces(); ++f) hasIrregularFaces |= base.GetFaceVertices(f).size() != 4;
-    ResolveOptions(result.options, hasIrregularFaces, refiner.GetSchemeType());
+    checkCount(positions, refiner.GetLevel(0).GetNumVertices());
+    ResolveOptions(result.options, refiner);
     return check(RefinedTopology(refiner, result.options.level), positions, result);
 }
 

@@ -71,6 +71,19 @@ ShadingOptions ResolveOptions(ShadingOptions options, bool hasIrregularFaces, Sd
     return options;
 }
 
+ShadingOptions ResolveOptions(ShadingOptions const& options, ControlMesh const& mesh) {
+    bool const hasIrregularFaces =
+        std::any_of(mesh.faceSizes.begin(), mesh.faceSizes.end(), [](int size) { return size != 4; });
+    return ResolveOptions(options, hasIrregularFaces, mesh.rules.scheme);
+}
+
+ShadingOptions ResolveOptions(ShadingOptions const& options, Far::TopologyRefiner const& refiner) {
+    Far::TopologyLevel const base = refiner.GetLevel(0);
+    bool hasIrregularFaces = false;
+    for (int f = 0; f < base.GetNumFaces(); ++f) hasIrregularFaces |= base.GetFaceVertices(f).size() != 4;
+    return ResolveOptions(options, hasIrregularFaces, refiner.GetSchemeType());
+}
+
 namespace {
 
 template <typename Real>

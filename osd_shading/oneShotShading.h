@@ -34,6 +34,8 @@ private:
 
 /// `options` with start levels and thread count in place of their defaults; throws InvalidOptions.
 ShadingOptions ResolveOptions(ShadingOptions options, bool hasIrregularFaces, Sdc::SchemeType scheme);
+ShadingOptions ResolveOptions(ShadingOptions const& options, ControlMesh const& mesh);
+ShadingOptions ResolveOptions(ShadingOptions const& options, Far::TopologyRefiner const& refiner);
 
 /// The whole method once, level by level: the reference for everything faster. `options` are resolved, `input` and
 /// its counts are valid.   [ZBK23] Sec. 2 and 3

@@ -138,9 +138,7 @@ ShadingResult<Real> ShadeSubdivision(ControlMesh const& mesh, ShadingInput<Real>
         checkPoints(input.positions, static_cast<std::size_t>(mesh.numVertices), "positions", "vertex");
     }
     ValidateControlMesh(mesh);
-    bool hasIrregularFaces = false;
-    for (int const size : mesh.faceSizes) hasIrregularFaces |= size != 4;
-    ShadingOptions const resolved = ResolveOptions(options, hasIrregularFaces, mesh.rules.scheme);
+    ShadingOptions const resolved = ResolveOptions(options, mesh);
     checkInput(input, static_cast<std::size_t>(mesh.numVertices), mesh.faceVertices.size(), resolved);
 
     std::vector<ArrayView<int>> indices;
@@ -184,10 +182,7 @@ ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, Shadin
     StageClock clock(options.execution.progress);
     ValidateRefiner(refiner);
     Far::TopologyLevel const base = refiner.GetLevel(0);
-    int const regularSize = refiner.GetSchemeType() == Sdc::SCHEME_CATMARK ? 4 : 3;
-    bool hasIrregularFaces = false;
-    for (int f = 0; f < base.GetNumFaces(); ++f) hasIrregularFaces |= base.GetFaceVertices(f).size() != regularSize;
-    ShadingOptions const resolved = ResolveOptions(options, hasIrregularFaces, refiner.GetSchemeType());
+    ShadingOptions const resolved = ResolveOptions(options, refiner);
     auto const numFaceCorners = static_cast<std::size_t>(base.GetNumFaceVertices());
     checkPoints(input.positions, static_cast<std::size_t>(base.GetNumVertices()), "positions", "vertex");
     checkInput(input, static_cast<std::size_t>(base.GetNumVertices()), numFaceCorners, resolved);
