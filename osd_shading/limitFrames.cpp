@@ -2,6 +2,7 @@
 #include "osd_shading/limitFrames.h"
 
 #include <limits>
+#include <utility>
 
 #include "osd_shading/parallel.h"
 #include "osd_shading/vectorMath.h"
@@ -155,8 +156,59 @@ LimitNormals<Real> ComputeFaceAverageNormals(LimitStep<Real> const& step, std::v
     return result;
 }
 
+template <typename Real>
+void FindLimitFrames(LimitStep<Real> const& step, int vertex, std::vector<LimitFrame<Real>>& frames) {
+    CreaseRegions const& regions = step.Regions();
+    Far::TopologyLevel const& level = step.Level();
+    VertexKind const kind = regions.Kind(vertex);
+    std::vector<RegionFan> fans;
+    FindRegionFans(level, regions, vertex, fans);
+    frames.resize(fans.size());
+    for (std::size_t i = 0; i < fans.size(); ++i) {
+        LimitFrame<Real>& frame = frames[i];
+        frame.fan = std::move(fans[i]);
+        frame.value = frame.fan.value;
+        frame.vertices.assign(1, vertex);
+        frame.tangent1.assign(1, 0);
+        frame.tangent2.assign(1, 0);
+        auto const add = [&](int neighbor, Real weight1, Real weight2) {
+            frame.vertices.push_back(neighbor);
+            frame.tangent1.push_back(weight1);
+            frame.tangent2.push_back(weight2);
+            frame.tangent1[0] -= weight1;
+            frame.tangent2[0] -= weight2;
+        };
+        auto const addMask = [&](int const* ring, LimitMask<Real> const& mask) {
+            for (auto const& weights : mask.faces) add(*ring++, weights.tangent1, weights.tangent2);
+            for (auto const& weights : mask.edges) add(*ring++, weights.tangent1, weights.tangent2);
+        };
+
+        std::size_t const numFaces = frame.fan.faces.size();
+        frame.isAverage = false;
+        if (kind <= VertexKind::Dart) {
+            RingView const ring = step.Ring(vertex);
+            addMask(ring.vertices, step.RingMask(ring));
+        } else if (kind == VertexKind::Crease && frame.fan.isOrdered) {
+            std::vector<int> neighbors;
+            GatherFan(level, frame.fan, step.Topology().IsCatmark(), neighbors);
+            addMask(neighbors.data(), step.Masks().Fan(static_cast<int>(numFaces)));
+        } else if (kind == VertexKind::Corner && numFaces == 1) {
+            Far::ConstIndexArray const vertices = level.GetFaceVertices(frame.fan.faces[0]);
+            int const size = vertices.size(), corner = frame.fan.corners[0];
+            add(vertices[(corner + 1) % size], 1, 0);
+            add(vertices[(corner + size - 1) % size], 0, 1);
+        } else {
+            frame.isAverage = true;
+            frame.vertices.clear();
+            frame.tangent1.clear();
+            frame.tangent2.clear();
+        }
+    }
+}
+
 #define OSD_SHADING_INSTANTIATE(Real)                                                                             \
     template LimitNormals<Real> ComputeLimitNormals(LimitStep<Real> const&, std::vector<Vec3<Real>> const&, int); \
+    template void FindLimitFrames(LimitStep<Real> const&, int, std::vector<LimitFrame<Real>>&);                   \
     template LimitNormals<Real> ComputeFaceAverageNormals(LimitStep<Real> const&, std::vector<Vec3<Real>> const&, \
                                                           FaceWeight, int);
 OSD_SHADING_INSTANTIATE(float)

@@ -39,5 +39,20 @@ template <typename Real>
 LimitNormals<Real> ComputeFaceAverageNormals(LimitStep<Real> const& step, std::vector<Vec3<Real>> const& points,
                                              FaceWeight weight, int numThreads);
 
+/// How N_L of one value is made of its level's points, for those who turn it into rows.
+template <typename Real>
+struct LimitFrame {
+    int value = 0;
+    bool isAverage = false;                ///< no tangents: the uniform average of the unit normals of fan.faces
+    std::vector<int> vertices;             ///< the vertex itself, then its neighbours; empty with isAverage
+    std::vector<Real> tangent1, tangent2;  ///< weights of `vertices`, each adding to zero; N_L points along
+                                           ///< tangent1 x tangent2
+    RegionFan fan;                         ///< the region's faces, in the order of the masks
+};
+
+/// The frames of each value of `vertex`, in their order, before any fallback. Reuses the memory of `frames`.
+template <typename Real>
+void FindLimitFrames(LimitStep<Real> const& step, int vertex, std::vector<LimitFrame<Real>>& frames);
+
 }  // namespace v1
 }  // namespace osd_shading
