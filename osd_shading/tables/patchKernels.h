@@ -9,6 +9,8 @@
 namespace osd_shading {
 inline namespace v1 {
 
+enum class InstructionSet;  // shadingEvaluator.h, which the kernels' own files must not include
+
 /// A leaf of a tile has at most 16 x 16 faces, so 17 x 17 points.
 constexpr int kLeafSide = 16;
 /// Floats that an array of a leaf's points must have: all points, and what the widest vector writes past them.
@@ -120,6 +122,9 @@ struct PatchKernels {
     void (*combine)(int numRows, std::uint32_t const* offsets, std::uint16_t const* sources, float const* weights,
                     LocalPoint const* points, LocalPoint* results);
 };
+
+/// The kernels of `set`; null where this build or this processor lacks it.
+PatchKernels const* FindKernels(InstructionSet set);
 
 }  // namespace v1
 }  // namespace osd_shading
