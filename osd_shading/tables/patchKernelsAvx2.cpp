@@ -30,6 +30,13 @@ struct Avx2Lanes {
         static Vector Broadcast(float const* p) { return {_mm256_broadcast_ss(p)}; }
         static Vector Set(float x) { return {_mm256_set1_ps(x)}; }
         void Store(float* p) const { _mm256_storeu_ps(p, v); }
+        Vector Kept() const {
+            Vector kept = *this;
+#ifdef __GNUC__
+            asm("" : "+x"(kept.v));
+#endif
+            return kept;
+        }
 
         friend Vector operator+(Vector a, Vector b) { return {_mm256_add_ps(a.v, b.v)}; }
         friend Vector operator-(Vector a, Vector b) { return {_mm256_sub_ps(a.v, b.v)}; }
@@ -48,6 +55,23 @@ struct Avx2Lanes {
     using Half = QuadLanes<Fma>;
     using Quad = Half::Vector;
     static constexpr int kCount = 8;
+
+    template <int kSide>
+    static Vector Repeat(float const* p) {
+        if constexpr (kSide == 8) {
+            return Vector::Load(p);
+        } else {
+            return {_mm256_broadcast_ps(reinterpret_cast<__m128 const*>(p))};
+        }
+    }
+    template <int kSide>
+    static Vector Spread(float const* p) {
+        if constexpr (kSide == 8) {
+            return Vector::Broadcast(p);
+        } else {
+            return {_mm256_set_m128(_mm_broadcast_ss(p + 1), _mm_broadcast_ss(p))};
+        }
+    }
 
     static void WritePacked(Vector x, Vector y, Vector z, float* to) {
         // In each half of four points ...

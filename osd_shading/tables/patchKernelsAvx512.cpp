@@ -56,6 +56,13 @@ struct Avx512Lanes {
         static Vector Broadcast(float const* p) { return {_mm512_set1_ps(*p)}; }
         static Vector Set(float x) { return {_mm512_set1_ps(x)}; }
         void Store(float* p) const { _mm512_storeu_ps(p, v); }
+        Vector Kept() const {
+            Vector kept = *this;
+#ifdef __GNUC__
+            asm("" : "+v"(kept.v));
+#endif
+            return kept;
+        }
 
         friend Vector operator+(Vector a, Vector b) { return {_mm512_add_ps(a.v, b.v)}; }
         friend Vector operator-(Vector a, Vector b) { return {_mm512_sub_ps(a.v, b.v)}; }
@@ -74,6 +81,29 @@ struct Avx512Lanes {
     using Quarter = QuadLanes<Fma>;
     using Quad = Quarter::Vector;
     static constexpr int kCount = 16;
+
+    template <int kSide>
+    static Vector Repeat(float const* p) {
+        if constexpr (kSide == 16) {
+            return Vector::Load(p);
+        } else if constexpr (kSide == 8) {
+            return {_mm512_broadcast_f32x8(_mm256_loadu_ps(p))};
+        } else {
+            return {_mm512_broadcast_f32x4(_mm_loadu_ps(p))};
+        }
+    }
+    template <int kSide>
+    static Vector Spread(float const* p) {
+        if constexpr (kSide == 16) {
+            return Vector::Broadcast(p);
+        } else if constexpr (kSide == 8) {
+            __m512 const first = _mm512_castps256_ps512(_mm256_broadcast_ss(p));
+            return {_mm512_insertf32x8(first, _mm256_broadcast_ss(p + 1), 1)};
+        } else {
+            __m512i const from = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+            return {_mm512_permutexvar_ps(from, _mm512_castps128_ps512(_mm_loadu_ps(p)))};
+        }
+    }
 
     static void WritePacked(Vector x, Vector y, Vector z, float* to) {
         for (int part = 0; part < 3; ++part) {

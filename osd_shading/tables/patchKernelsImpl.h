@@ -12,10 +12,12 @@ inline namespace v1 {
 ///
 ///     Lanes::kCount    floats in a vector: 4, 8 or 16
 ///     Lanes::Vector    Load, Store (any address), Broadcast (of a float in memory), Set, + - * /,
+///                      Kept (in a register: not loaded again where it is used),
 ///                      MulAdd(a, b, c) = a b + c, MulSub = a b - c, Sqrt, Max (the second where one is NaN)
-///     Lanes::Mask      Greater(a, b), NotLess(a, b), both false for NaN; Bits, Select, KeepIf
-///     Lanes::Quad      a vector of 4: a LocalPoint; Transpose, ZipLow, ZipHigh
-///     Lanes::WritePacked, Lanes::WriteStrided    x, y, z of kCount points
+///     Lanes::Repeat<n>, Spread<n>    p[0] .. p[n - 1] over and over; each of p[0], p[1], ... n times; n is 4, 8 or
+///     16 Lanes::Mask      Greater(a, b), NotLess(a, b), both false for NaN; Bits, Select, KeepIf Lanes::Quad a
+///     vector of 4: a LocalPoint; Transpose, ZipLow, ZipHigh Lanes::WritePacked, Lanes::WriteStrided    x, y, z of
+///     kCount points
 ///
 /// Those files are compiled for processors that may not be there. Nothing of them may be merged by the linker with
 /// the same function of another file, so all that is here is a template on `Lanes`, which is in an unnamed
@@ -48,52 +50,149 @@ private:
         return result;
     }
 
-    /// The same where weights are vectors in memory and values are single numbers.
-    template <int kNum>
+    /// The same of single values, with the weights of a basis at kSide parameters, over and over.
+    template <int kNum, int kSide = kLanes>
     static V sumOfScalars(float const* weights, float const* values, std::ptrdiff_t pitch) {
-        V result = V::Load(weights) * V::Broadcast(values);
+        V result = Lanes::template Repeat<kSide>(weights) * V::Broadcast(values);
         for (int j = 1; j < kNum; ++j) {
-            result = MulAdd(V::Load(weights + j * SplineBasis::kPitch), V::Broadcast(values + j * pitch), result);
+            V const weight = Lanes::template Repeat<kSide>(weights + j * SplineBasis::kPitch);
+            result = MulAdd(weight, V::Broadcast(values + j * pitch), result);
         }
         return result;
     }
 
-    static void EvaluateSpline(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan,
-                               LocalPoint const* points, std::uint16_t const* indices, FieldArrays const& field) {
-        // Rows along u: [x, y, z][control row]. At the end of a grid a row past the last is asked for, with weight
-        // 0.
-        alignas(64) float rows[3][kLeafSide + 4][kRowPitch];
-        if (u.gridSize == 1) {
-            alignas(64) float control[4][4][4];
-            for (int i = 0; i < 16; ++i) loadPoint(points[indices[i]]).Store(control[i / 4][i % 4]);
-            for (int column = plan.firstColumn, to = 0; column <= plan.lastColumn; column += kLanes, to += kLanes) {
-                for (int r = 0; r < 4; ++r) {
-                    for (int c = 0; c < 3; ++c) {
-                        sumOfScalars<4>(u.value[0] + column, control[r][0] + c, 4).Store(rows[c][r] + to);
-                    }
-                }
-            }
-        } else {
-            gridRows(u, v, plan, points, indices, rows);
+    /// The same of points, at one parameter.
+    template <int kNum>
+    static Quad sumOfPoints(float const* weights, float const (*points)[4]) {
+        Quad result = Quad::Broadcast(weights) * Quad::Load(points[0]);
+        for (int j = 1; j < kNum; ++j) {
+            result = MulAdd(Quad::Broadcast(weights + j * SplineBasis::kPitch), Quad::Load(points[j]), result);
         }
+        return result;
+    }
 
-        int const shift = v.gridSize == 1 ? 16 : v.shift;  // one face: it begins at control row 0
-        int to = 0;
+    /// How the segments of a plan become vectors.
+    struct Layout {
+        int side;     ///< of the rows: several rows of 4 or 8 points make one vector; kLanes: all other plans
+        bool hasOdd;  ///< the last column is what rows have above whole vectors: evaluated by itself, along v
+    };
+
+    static Layout layoutOf(RowPlan const& plan) {
+        int const count = plan.lastColumn - plan.firstColumn + 1;
+        bool const canPack = count < kLanes && (count == 4 || count == 8);
+        bool const canSplit = count > kLanes && count % kLanes == 1;
+        if (!canPack && !canSplit) return {kLanes, false};
         for (int s = 0; s < plan.numSegments; ++s) {
             RowSegment const segment = plan.segments[s];
-            int const begin = segment.first - plan.firstColumn;
-            V weights[4];
-            for (int r = 0; r < 4; ++r) weights[r] = V::Broadcast(v.value[r] + segment.row);
-            float const* const x = rows[0][segment.row >> shift] + begin;
-            float const* const y = rows[1][segment.row >> shift] + begin;
-            float const* const z = rows[2][segment.row >> shift] + begin;
-            for (int i = 0; i < segment.count; i += kLanes) {
-                sum<4>(weights, x + i, kRowPitch).Store(field.x + to + i);
-                sum<4>(weights, y + i, kRowPitch).Store(field.y + to + i);
-                sum<4>(weights, z + i, kRowPitch).Store(field.z + to + i);
-            }
-            to += segment.count;
+            if (segment.count != count || segment.row != plan.segments[0].row + s) return {kLanes, false};
         }
+        return {canPack ? count : kLanes, canSplit};
+    }
+
+    /// Calls f(column, to) for the vectors of a row; `to` counts floats from the first column.
+    template <typename Function>
+    static void forAllColumns(RowPlan const& plan, Layout layout, Function const& f) {
+        int const last = plan.lastColumn - (layout.hasOdd ? 1 : 0);
+        for (int column = plan.firstColumn, to = 0; column <= last; column += kLanes, to += kLanes) f(column, to);
+    }
+
+    /// Calls f(row, begin, count, to) for the segments, where kSide is kLanes, and otherwise for as many rows as
+    /// are in a vector.
+    template <int kSide, typename Function>
+    static void forAllRows(RowPlan const& plan, Layout layout, Function const& f) {
+        int const skipped = layout.hasOdd ? 1 : 0;
+        int to = 0;
+        for (int s = 0; s < plan.numSegments; s += kLanes / kSide) {
+            RowSegment const segment = plan.segments[s];
+            if constexpr (kSide == kLanes) {
+                f(int(segment.row), segment.first - plan.firstColumn, segment.count - skipped, to);
+                to += segment.count;
+            } else {
+                f(int(segment.row), 0, kLanes, to);
+                to += kLanes;
+            }
+        }
+    }
+
+    /// The last column of a plan: numbers of `kNum` fields from the sums over u of its control rows.
+    template <int kNum>
+    static void oddColumn(RowPlan const& plan, float const (*weights)[SplineBasis::kPitch], float const (*sums)[4],
+                          FieldArrays const& field) {
+        int const count = plan.segments[0].count, row = plan.segments[0].row;
+        float* const fields[3] = {field.x, field.y, field.z};
+        for (int first = 0; first < plan.numSegments; first += kLanes) {
+            int const numRows = plan.numSegments - first < kLanes ? plan.numSegments - first : kLanes;
+            for (int c = 0; c < 3; ++c) {
+                alignas(64) float values[kLanes];
+                sumOfScalars<kNum>(weights[0] + row + first, sums[0] + c, 4).Store(values);
+                float* to = fields[c] + (first + 1) * count - 1;
+                for (int i = 0; i < numRows; ++i, to += count) *to = values[i];
+            }
+        }
+    }
+
+    static void EvaluateSpline(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan,
+                               LocalPoint const* points, std::uint16_t const* indices, FieldArrays const& field) {
+        if (u.gridSize > 1) {
+            splineOfGrid(u, v, plan, points, indices, field);
+            return;
+        }
+        alignas(64) float control[4][4][4];
+        for (int i = 0; i < 16; ++i) loadPoint(points[indices[i]]).Store(control[i / 4][i % 4]);
+        Layout const layout = layoutOf(plan);
+        if (kLanes > 4 && layout.side == 4) {
+            splineOfFace<4>(u, v, plan, layout, control, field);
+        } else if (kLanes > 8 && layout.side == 8) {
+            splineOfFace<8>(u, v, plan, layout, control, field);
+        } else {
+            splineOfFace<kLanes>(u, v, plan, layout, control, field);
+        }
+        if (layout.hasOdd) {
+            alignas(16) float sums[4][4];
+            for (int r = 0; r < 4; ++r) sumOfPoints<4>(u.value[0] + plan.lastColumn, control[r]).Store(sums[r]);
+            oddColumn<4>(plan, v.value, sums, field);
+        }
+    }
+
+    template <int kSideWanted>
+    static void splineOfFace(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan, Layout layout,
+                             float const (*control)[4][4], FieldArrays const& field) {
+        constexpr int kSide = kSideWanted < kLanes ? kSideWanted : kLanes;
+        // Rows along u: [x, y, z][control row].
+        alignas(64) float rows[3][4][kRowPitch];
+        forAllColumns(plan, layout, [&](int column, int to) {
+            for (int r = 0; r < 4; ++r) {
+                for (int c = 0; c < 3; ++c) {
+                    sumOfScalars<4, kSide>(u.value[0] + column, control[r][0] + c, 4).Store(rows[c][r] + to);
+                }
+            }
+        });
+        forAllRows<kSide>(plan, layout, [&](int row, int begin, int count, int to) {
+            V values[4];
+            for (int r = 0; r < 4; ++r) values[r] = Lanes::template Spread<kSide>(v.value[r] + row);
+            for (int i = 0; i < count; i += kLanes) {
+                sum<4>(values, rows[0][0] + begin + i, kRowPitch).Store(field.x + to + i);
+                sum<4>(values, rows[1][0] + begin + i, kRowPitch).Store(field.y + to + i);
+                sum<4>(values, rows[2][0] + begin + i, kRowPitch).Store(field.z + to + i);
+            }
+        });
+    }
+
+    static void splineOfGrid(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan,
+                             LocalPoint const* points, std::uint16_t const* indices, FieldArrays const& field) {
+        // At the end of a grid a row past the last is asked for, with weight 0.
+        alignas(64) float rows[3][kLeafSide + 4][kRowPitch];
+        gridRows(u, v, plan, points, indices, rows);
+        forAllRows<kLanes>(plan, {kLanes, false}, [&](int row, int begin, int count, int to) {
+            V values[4];
+            for (int r = 0; r < 4; ++r) values[r] = V::Broadcast(v.value[r] + row);
+            int const face = row >> v.shift;
+            for (int i = 0; i < count; i += kLanes) {
+                sum<4>(values, rows[0][face] + begin + i, kRowPitch).Store(field.x + to + i);
+                sum<4>(values, rows[1][face] + begin + i, kRowPitch).Store(field.y + to + i);
+                sum<4>(values, rows[2][face] + begin + i, kRowPitch).Store(field.z + to + i);
+            }
+        });
     }
 
     static void gridRows(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan, LocalPoint const* points,
@@ -135,8 +234,11 @@ private:
                           float (*spread)[96]) {
         for (int i = 0; i < numControls; i += 4) {
             Quad q[4];
-            for (int k = 0; k < 4; ++k) {
-                q[k] = i + k < numControls ? loadPoint(points[indices[i + k]]) : Quad::Set(0);
+            if (i + 4 <= numControls) {
+                for (int k = 0; k < 4; ++k) q[k] = loadPoint(points[indices[i + k]]);
+            } else {
+                q[0] = q[1] = q[2] = q[3] = Quad::Set(0);
+                for (int k = 0; i + k < numControls; ++k) q[k] = loadPoint(points[indices[i + k]]);
             }
             Transpose(q[0], q[1], q[2], q[3]);
             for (int c = 0; c < 3; ++c) {
@@ -181,28 +283,61 @@ private:
             }
         }
 
+        Layout const layout = layoutOf(plan);
+        Frame const frame{control, alongU, alongV, position, du, dv};
+        if (kLanes > 4 && layout.side == 4) {
+            frameOfFace<4>(u, v, plan, layout, frame);
+        } else if (kLanes > 8 && layout.side == 8) {
+            frameOfFace<8>(u, v, plan, layout, frame);
+        } else {
+            frameOfFace<kLanes>(u, v, plan, layout, frame);
+        }
+        if (layout.hasOdd) {
+            alignas(16) float values[4][4], slopes[4][4], differences[3][4];
+            for (int r = 0; r < 4; ++r) {
+                sumOfPoints<4>(u.value[0] + plan.lastColumn, control[r]).Store(values[r]);
+                sumOfPoints<3>(u.slope[0] + plan.lastColumn, alongU[r]).Store(slopes[r]);
+                if (r < 3) sumOfPoints<4>(u.value[0] + plan.lastColumn, alongV[r]).Store(differences[r]);
+            }
+            oddColumn<4>(plan, v.value, values, position);
+            oddColumn<4>(plan, v.value, slopes, du);
+            oddColumn<3>(plan, v.slope, differences, dv);
+        }
+    }
+
+    /// Control points, their differences, and the fields to write.
+    struct Frame {
+        float const (*control)[4][4];
+        float const (*alongU)[3][4];
+        float const (*alongV)[4][4];
+        FieldArrays position, du, dv;
+    };
+
+    template <int kSideWanted>
+    static void frameOfFace(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan, Layout layout,
+                            Frame const& frame) {
+        constexpr int kSide = kSideWanted < kLanes ? kSideWanted : kLanes;
         // Rows along u of what the columns combine: [x, y, z][4 of positions, 4 of du, 3 of differences].
         alignas(64) float rows[3][11][kRowPitch];
-        for (int column = plan.firstColumn, to = 0; column <= plan.lastColumn; column += kLanes, to += kLanes) {
+        forAllColumns(plan, layout, [&](int column, int to) {
+            float const *const value = u.value[0] + column, *const slope = u.slope[0] + column;
             for (int c = 0; c < 3; ++c) {
                 for (int r = 0; r < 4; ++r) {
-                    sumOfScalars<4>(u.value[0] + column, control[r][0] + c, 4).Store(rows[c][r] + to);
-                    sumOfScalars<3>(u.slope[0] + column, alongU[r][0] + c, 4).Store(rows[c][4 + r] + to);
+                    sumOfScalars<4, kSide>(value, frame.control[r][0] + c, 4).Store(rows[c][r] + to);
+                    sumOfScalars<3, kSide>(slope, frame.alongU[r][0] + c, 4).Store(rows[c][4 + r] + to);
                 }
                 for (int r = 0; r < 3; ++r) {
-                    sumOfScalars<4>(u.value[0] + column, alongV[r][0] + c, 4).Store(rows[c][8 + r] + to);
+                    sumOfScalars<4, kSide>(value, frame.alongV[r][0] + c, 4).Store(rows[c][8 + r] + to);
                 }
             }
-        }
+        });
 
-        int to = 0;
-        for (int s = 0; s < plan.numSegments; ++s) {
-            RowSegment const segment = plan.segments[s];
-            int const begin = segment.first - plan.firstColumn;
+        FieldArrays const position = frame.position, du = frame.du, dv = frame.dv;
+        forAllRows<kSide>(plan, layout, [&](int row, int begin, int count, int to) {
             V values[4], slopes[3];
-            for (int r = 0; r < 4; ++r) values[r] = V::Broadcast(v.value[r] + segment.row);
-            for (int r = 0; r < 3; ++r) slopes[r] = V::Broadcast(v.slope[r] + segment.row);
-            for (int i = 0; i < segment.count; i += kLanes) {
+            for (int r = 0; r < 4; ++r) values[r] = Lanes::template Spread<kSide>(v.value[r] + row);
+            for (int r = 0; r < 3; ++r) slopes[r] = Lanes::template Spread<kSide>(v.slope[r] + row);
+            for (int i = 0; i < count; i += kLanes) {
                 float const *const x = rows[0][0] + begin + i, *const y = rows[1][0] + begin + i,
                                    *const z = rows[2][0] + begin + i;
                 sum<4>(values, x, kRowPitch).Store(position.x + to + i);
@@ -215,8 +350,7 @@ private:
                 sum<3>(slopes, y + 8 * kRowPitch, kRowPitch).Store(dv.y + to + i);
                 sum<3>(slopes, z + 8 * kRowPitch, kRowPitch).Store(dv.z + to + i);
             }
-            to += segment.count;
-        }
+        });
     }
 
     // --- Dense matrices ---------------------------------------------------------------------------------------
@@ -224,34 +358,52 @@ private:
     static void EvaluateDense(DenseMatrix const& matrix, LocalPoint const* points, std::uint16_t const* indices,
                               FieldArrays const* fields) {
         int field = 0;
-        for (; field + 3 <= matrix.numFields; field += 3) denseFields<3>(matrix, field, points, indices, fields);
-        for (; field < matrix.numFields; ++field) denseFields<1>(matrix, field, points, indices, fields);
+        for (; field + 3 <= matrix.numFields; field += 3) {
+            for (int first = 0; first < matrix.numPoints; first += kLanes) {
+                denseVectors<3, 1>(matrix, field, first, points, indices, fields);
+            }
+        }
+        for (; field < matrix.numFields; ++field) {
+            // Two vectors at once, or each sum would wait for its last product.
+            int first = 0;
+            for (; first + kLanes < matrix.numPoints; first += 2 * kLanes) {
+                denseVectors<1, 2>(matrix, field, first, points, indices, fields);
+            }
+            if (first < matrix.numPoints) denseVectors<1, 1>(matrix, field, first, points, indices, fields);
+        }
     }
 
-    /// kNum fields from `field` on.
-    template <int kNum>
-    static void denseFields(DenseMatrix const& matrix, int field, LocalPoint const* points,
-                            std::uint16_t const* indices, FieldArrays const* fields) {
+    /// kNum fields from `field` on, at kVectors vectors of points from `first` on.
+    template <int kNum, int kVectors>
+    static void denseVectors(DenseMatrix const& matrix, int field, int first, LocalPoint const* points,
+                             std::uint16_t const* indices, FieldArrays const* fields) {
         std::ptrdiff_t const columnPitch = std::ptrdiff_t(matrix.numFields) * kDenseBlock;
-        for (int first = 0; first < matrix.numPoints; first += kLanes) {
-            float const* weights = matrix.weights + first / kDenseBlock * columnPitch * matrix.numColumns +
-                                   field * kDenseBlock + first % kDenseBlock;
-            V x[kNum], y[kNum], z[kNum];
-            for (int f = 0; f < kNum; ++f) x[f] = y[f] = z[f] = V::Set(0);
-            for (int column = 0; column < matrix.numColumns; ++column, weights += columnPitch) {
-                float const* const p = points[indices[column]].v;
-                V const px = V::Broadcast(p), py = V::Broadcast(p + 1), pz = V::Broadcast(p + 2);
+        float const* weights[kVectors];
+        V x[kVectors][kNum], y[kVectors][kNum], z[kVectors][kNum];
+        for (int v = 0; v < kVectors; ++v) {
+            int const point = first + v * kLanes;
+            weights[v] = matrix.weights + point / kDenseBlock * columnPitch * matrix.numColumns +
+                         field * kDenseBlock + point % kDenseBlock;
+            for (int f = 0; f < kNum; ++f) x[v][f] = y[v][f] = z[v][f] = V::Set(0);
+        }
+        for (int column = 0; column < matrix.numColumns; ++column) {
+            float const* const p = points[indices[column]].v;
+            V const px = V::Broadcast(p), py = V::Broadcast(p + 1), pz = V::Broadcast(p + 2);
+            for (int v = 0; v < kVectors; ++v) {
                 for (int f = 0; f < kNum; ++f) {
-                    V const weight = V::Load(weights + f * kDenseBlock);
-                    x[f] = MulAdd(weight, px, x[f]);
-                    y[f] = MulAdd(weight, py, y[f]);
-                    z[f] = MulAdd(weight, pz, z[f]);
+                    V const weight = V::Load(weights[v] + column * columnPitch + f * kDenseBlock).Kept();
+                    x[v][f] = MulAdd(weight, px, x[v][f]);
+                    y[v][f] = MulAdd(weight, py, y[v][f]);
+                    z[v][f] = MulAdd(weight, pz, z[v][f]);
                 }
             }
+        }
+        for (int v = 0; v < kVectors; ++v) {
             for (int f = 0; f < kNum; ++f) {
-                x[f].Store(fields[field + f].x + first);
-                y[f].Store(fields[field + f].y + first);
-                z[f].Store(fields[field + f].z + first);
+                int const to = first + v * kLanes;
+                x[v][f].Store(fields[field + f].x + to);
+                y[v][f].Store(fields[field + f].y + to);
+                z[v][f].Store(fields[field + f].z + to);
             }
         }
     }

@@ -16,6 +16,7 @@ struct Vector {
     static Vector Load(float const* p) { return {{p[0], p[1], p[2], p[3]}}; }
     static Vector Broadcast(float const* p) { return Set(*p); }
     static Vector Set(float x) { return {{x, x, x, x}}; }
+    Vector Kept() const { return *this; }
     void Store(float* p) const {
         for (int i = 0; i < 4; ++i) p[i] = v[i];
     }
@@ -78,6 +79,15 @@ struct PortableLanes {
     using Vector = v1::Vector;
     using Quad = v1::Vector;
     static constexpr int kCount = 4;
+
+    template <int kSide>
+    static Vector Repeat(float const* p) {
+        return Vector::Load(p);
+    }
+    template <int kSide>
+    static Vector Spread(float const* p) {
+        return Vector::Broadcast(p);
+    }
 
     static void WritePacked(Vector x, Vector y, Vector z, float* to) { WriteStrided(x, y, z, to, 3); }
     static void WriteStrided(Vector x, Vector y, Vector z, float* to, std::size_t stride) {

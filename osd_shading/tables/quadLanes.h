@@ -28,6 +28,7 @@ struct QuadLanes {
         static Vector Broadcast(float const* p) { return {_mm_set1_ps(*p)}; }
         static Vector Set(float x) { return {_mm_set1_ps(x)}; }
         void Store(float* p) const { _mm_storeu_ps(p, v); }
+        Vector Kept() const { return *this; }  // loading again is as good as copying, without fused forms
 
         friend Vector operator+(Vector a, Vector b) { return {_mm_add_ps(a.v, b.v)}; }
         friend Vector operator-(Vector a, Vector b) { return {_mm_sub_ps(a.v, b.v)}; }
@@ -52,6 +53,15 @@ struct QuadLanes {
     using Quad = Vector;
 
     static constexpr int kCount = 4;
+
+    template <int kSide>
+    static Vector Repeat(float const* p) {
+        return Vector::Load(p);
+    }
+    template <int kSide>
+    static Vector Spread(float const* p) {
+        return Vector::Broadcast(p);
+    }
 
     /// x0 y0 z0 x1 y1 z1 ...
     static void WritePacked(Vector x, Vector y, Vector z, float* to) {
