@@ -9,15 +9,14 @@ include(CheckCXXSourceCompiles)
 function(osd_shading_instruction_sets output)
     set(files tables/patchKernelsPortable.cpp)
     set(definitions "")
+    # A product and a sum are fused where the source says so and nowhere else: the same bits from any compiler.
     if(MSVC)
-        # Results are those of the source: a product and a sum are fused where it says so and nowhere else.
         set(exact /fp:precise)
         set(flagsSse2 "")
         set(flagsAvx2 /arch:AVX2)
         set(flagsAvx512 /arch:AVX512)
     else()
-        # Without -fpredictive-commoning, with which g++ -O3 keeps rows of splines in more registers than there are.
-        set(exact -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-predictive-commoning>)
+        set(exact -ffp-contract=off)
         set(flagsSse2 -msse2)
         set(flagsAvx2 -mavx2 -mfma)
         set(flagsAvx512 -mavx512f -mavx512bw -mavx512dq -mavx512vl -mavx2 -mfma)

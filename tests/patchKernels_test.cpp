@@ -430,7 +430,7 @@ TEST_P(PatchKernelsOf, NormalsAreBlendedAndWrittenWithAnyPartsAndStrides) {
         for (unsigned const parts : kPartSets) {
             Leaf leaf(numPoints, kNan);
             fillRandomly(leaf, random);
-            for (std::size_t const stride : {3, 4, 6, 8, 11}) {
+            for (std::size_t const stride : {3U, 4U, 6U, 8U, 11U}) {
                 Outputs outputs(numPoints, stride);
                 LeafFrame frame = makeFrame(leaf, outputs, parts);
                 // Any of the outputs that the parts allow.

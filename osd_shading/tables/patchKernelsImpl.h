@@ -27,7 +27,7 @@ template <typename Lanes>
 class KernelsFor {
 public:
     static constexpr PatchKernels Table(char const* name) {
-        return {name, Lanes::kCount, &EvaluateSpline, &EvaluateSplineFrame, &EvaluateDense, &Finish, &Combine};
+        return {name, Lanes::kCount, &evaluateSpline, &evaluateSplineFrame, &evaluateDense, &finish, &combine};
     }
 
 private:
@@ -41,6 +41,15 @@ private:
     // --- Splines ----------------------------------------------------------------------------------------------
 
     static Quad loadPoint(LocalPoint const& point) { return Quad::Load(point.v); }
+
+    /// `p`, of which the compiler knows nothing: g++ -O3 sees that one row's end is the next one's beginning (when
+    /// they are some vectors apart) and would keep more of them for later than there are registers.
+    static float const* opaque(float const* p) {
+#ifdef __GNUC__
+        asm("" : "+r"(p));
+#endif
+        return p;
+    }
 
     /// sum of weights[j] * values[j * pitch]
     template <int kNum>
@@ -131,7 +140,7 @@ private:
         }
     }
 
-    static void EvaluateSpline(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan,
+    static void evaluateSpline(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan,
                                LocalPoint const* points, std::uint16_t const* indices, FieldArrays const& field) {
         if (u.gridSize > 1) {
             splineOfGrid(u, v, plan, points, indices, field);
@@ -171,9 +180,11 @@ private:
             V values[4];
             for (int r = 0; r < 4; ++r) values[r] = Lanes::template Spread<kSide>(v.value[r] + row);
             for (int i = 0; i < count; i += kLanes) {
-                sum<4>(values, rows[0][0] + begin + i, kRowPitch).Store(field.x + to + i);
-                sum<4>(values, rows[1][0] + begin + i, kRowPitch).Store(field.y + to + i);
-                sum<4>(values, rows[2][0] + begin + i, kRowPitch).Store(field.z + to + i);
+                float const* const x = opaque(rows[0][0] + begin + i);
+                float const *const y = x + 4 * kRowPitch, *const z = y + 4 * kRowPitch;
+                sum<4>(values, x, kRowPitch).Store(field.x + to + i);
+                sum<4>(values, y, kRowPitch).Store(field.y + to + i);
+                sum<4>(values, z, kRowPitch).Store(field.z + to + i);
             }
         });
     }
@@ -188,9 +199,11 @@ private:
             for (int r = 0; r < 4; ++r) values[r] = V::Broadcast(v.value[r] + row);
             int const face = row >> v.shift;
             for (int i = 0; i < count; i += kLanes) {
-                sum<4>(values, rows[0][face] + begin + i, kRowPitch).Store(field.x + to + i);
-                sum<4>(values, rows[1][face] + begin + i, kRowPitch).Store(field.y + to + i);
-                sum<4>(values, rows[2][face] + begin + i, kRowPitch).Store(field.z + to + i);
+                float const* const x = opaque(rows[0][face] + begin + i);
+                float const *const y = x + (kLeafSide + 4) * kRowPitch, *const z = y + (kLeafSide + 4) * kRowPitch;
+                sum<4>(values, x, kRowPitch).Store(field.x + to + i);
+                sum<4>(values, y, kRowPitch).Store(field.y + to + i);
+                sum<4>(values, z, kRowPitch).Store(field.z + to + i);
             }
         });
     }
@@ -261,7 +274,7 @@ private:
         }
     }
 
-    static void EvaluateSplineFrame(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan,
+    static void evaluateSplineFrame(SplineBasis const& u, SplineBasis const& v, RowPlan const& plan,
                                     LocalPoint const* points, std::uint16_t const* indices,
                                     FieldArrays const& position, FieldArrays const& du, FieldArrays const& dv) {
         // Control points [row][column] and their differences. Derivatives are made of differences of control points
@@ -338,8 +351,8 @@ private:
             for (int r = 0; r < 4; ++r) values[r] = Lanes::template Spread<kSide>(v.value[r] + row);
             for (int r = 0; r < 3; ++r) slopes[r] = Lanes::template Spread<kSide>(v.slope[r] + row);
             for (int i = 0; i < count; i += kLanes) {
-                float const *const x = rows[0][0] + begin + i, *const y = rows[1][0] + begin + i,
-                                   *const z = rows[2][0] + begin + i;
+                float const* const x = opaque(rows[0][0] + begin + i);
+                float const *const y = x + 11 * kRowPitch, *const z = y + 11 * kRowPitch;
                 sum<4>(values, x, kRowPitch).Store(position.x + to + i);
                 sum<4>(values, y, kRowPitch).Store(position.y + to + i);
                 sum<4>(values, z, kRowPitch).Store(position.z + to + i);
@@ -355,7 +368,7 @@ private:
 
     // --- Dense matrices ---------------------------------------------------------------------------------------
 
-    static void EvaluateDense(DenseMatrix const& matrix, LocalPoint const* points, std::uint16_t const* indices,
+    static void evaluateDense(DenseMatrix const& matrix, LocalPoint const* points, std::uint16_t const* indices,
                               FieldArrays const* fields) {
         int field = 0;
         for (; field + 3 <= matrix.numFields; field += 3) {
@@ -457,7 +470,7 @@ private:
         ByPoint          ///< both, b of each point
     };
 
-    static void Finish(LeafFrame& frame) {
+    static void finish(LeafFrame& frame) {
         int const numPoints = frame.numPoints;
         frame.numDoubtful = 0;
         if (frame.positions.data) {
@@ -589,7 +602,7 @@ private:
 
     // --- Sparse rows ------------------------------------------------------------------------------------------
 
-    static void Combine(int numRows, std::uint32_t const* offsets, std::uint16_t const* sources,
+    static void combine(int numRows, std::uint32_t const* offsets, std::uint16_t const* sources,
                         float const* weights, LocalPoint const* points, LocalPoint* results) {
         for (int row = 0; row < numRows; ++row) {
             Quad sum = Quad::Set(0);
