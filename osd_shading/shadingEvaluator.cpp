@@ -103,7 +103,7 @@ struct ShadingEvaluator::Impl {
     /// A class with its sources in place.
     struct Place {
         LocalPoint *points = nullptr, *normals = nullptr, *free = nullptr;
-        double origin[3] = {0, 0, 0};
+        float origin[3] = {0, 0, 0};
         Frame2 frame;
     };
 
@@ -246,7 +246,10 @@ void ShadingEvaluator::Impl::evaluateTile(int tileIndex, Visit& visit) {
     Place place;
     place.points = visit.worker->local.data();
     int const* const vertices = data->vertices.data() + tile.firstVertex;
-    Vec3<float> const origin = visit.controlPoints[index(vertices[0])];
+    // Relative to their middle, so that a tile keeps its digits wherever it lies.
+    Vec3<float> sum{};
+    for (int i = 0; i < tileClass.numSources; ++i) sum += visit.controlPoints[index(vertices[i])];
+    Vec3<float> const origin = (1.0f / static_cast<float>(tileClass.numSources)) * sum;
     for (int i = 0; i < tileClass.numSources; ++i) {
         Vec3<float> const p = visit.controlPoints[index(vertices[i])];
         place.points[i] = {{p.x - origin.x, p.y - origin.y, p.z - origin.z, 0}};
@@ -293,13 +296,22 @@ void ShadingEvaluator::Impl::evaluateClass(int classIndex, Place const& place, V
                 continue;
             }
             inner.points = place.free;
-            // Near its own points, so that small tiles keep their digits.
-            LocalPoint const origin = place.points[child.pointIndices[0]];
+            // Relative to their own middle again; its origin is a float, what that leaves over goes to the points.
+            LocalPoint sum{{0, 0, 0, 0}};
+            for (auto const j : child.pointIndices) {
+                for (int axis = 0; axis < 3; ++axis) sum.v[axis] += place.points[j].v[axis];
+            }
+            LocalPoint shift{{0, 0, 0, 0}};
+            for (int axis = 0; axis < 3; ++axis) {
+                float const middle = sum.v[axis] / static_cast<float>(child.pointIndices.size());
+                double const exact = double{place.origin[axis]} + double{middle};
+                inner.origin[axis] = static_cast<float>(exact);
+                shift.v[axis] = middle - static_cast<float>(exact - double{inner.origin[axis]});
+            }
             for (std::size_t j = 0; j < child.pointIndices.size(); ++j) {
                 LocalPoint const& p = place.points[child.pointIndices[j]];
-                inner.points[j] = {{p.v[0] - origin.v[0], p.v[1] - origin.v[1], p.v[2] - origin.v[2], 0}};
+                inner.points[j] = {{p.v[0] - shift.v[0], p.v[1] - shift.v[1], p.v[2] - shift.v[2], 0}};
             }
-            for (int axis = 0; axis < 3; ++axis) inner.origin[axis] = place.origin[axis] + double{origin.v[axis]};
             inner.normals = inner.points + childClass.numSources + childClass.pointRows.NumRows();
             inner.free = inner.normals;
             if (visit.hasNormals) {
@@ -421,7 +433,7 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
 
     LeafFrame leaf{};
     leaf.numPoints = numPoints;
-    for (int axis = 0; axis < 3; ++axis) leaf.origin[axis] = static_cast<float>(place.origin[axis]);
+    for (int axis = 0; axis < 3; ++axis) leaf.origin[axis] = place.origin[axis];
     leaf.position = worker.position;
     if (hasTangents) {
         leaf.tangent1 = worker.tangent1;

@@ -58,8 +58,8 @@ struct Reference {
     double size = 0;  ///< of the control points' box, its longest side
 };
 
-inline Reference ReferenceOf(ControlMesh const& mesh, std::vector<float> const& points, ShadingOptions const& options,
-                             std::vector<float> const& userNormals = {}) {
+inline Reference ReferenceOf(ControlMesh const& mesh, std::vector<float> const& points,
+                             ShadingOptions const& options, std::vector<float> const& userNormals = {}) {
     Reference reference;
     std::vector<double> const positions(points.begin(), points.end());
     std::vector<double> const normals(userNormals.begin(), userNormals.end());

@@ -41,14 +41,21 @@ ExactNormals::ExactNormals(TableData const& data) : _data(data) {
 Vec3<double> ExactNormals::Find(int tile, GridPoint const& at, PointView<float> controlPoints) const {
     // The control faces that share a vertex with the tile's, in their order.
     TableMesh const& mesh = _data.mesh;
-    std::vector<int> faces;
-    for (int i = mesh.faceOffsets[index(tile)]; i < mesh.faceOffsets[index(tile) + 1]; ++i) {
-        int const v = mesh.faceVertices[index(i)];
-        faces.insert(faces.end(), _vertexFaces.begin() + _vertexFaceOffsets[index(v)],
-                     _vertexFaces.begin() + _vertexFaceOffsets[index(v) + 1]);
-    }
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    std::vector<int> faces{tile};
+    auto const addRound = [&] {
+        std::vector<int> const inner = faces;
+        for (int const f : inner) {
+            for (int i = mesh.faceOffsets[index(f)]; i < mesh.faceOffsets[index(f) + 1]; ++i) {
+                int const v = mesh.faceVertices[index(i)];
+                faces.insert(faces.end(), _vertexFaces.begin() + _vertexFaceOffsets[index(v)],
+                             _vertexFaces.begin() + _vertexFaceOffsets[index(v) + 1]);
+            }
+        }
+        std::sort(faces.begin(), faces.end());
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    };
+    addRound();
+    if (mesh.rules.creasing == Sdc::Options::CREASE_CHAIKIN) addRound();  // as in TileRings
     TileRing ring;
     std::vector<int> vertices;
     for (int const f : faces) {
@@ -103,34 +110,38 @@ Vec3<double> ExactNormals::Find(int tile, GridPoint const& at, PointView<float> 
     constexpr int kSmall = 2;
     while (k > kSmall || (isNgon && k > 0)) {
         RefinedTopology const topology(ring.Mesh(mesh.rules), 1);
-        points = RefinePoints(topology.RecordMasks<double>(1), points, 1);
         int const half = 1 << (k - 1);
-        int child;
+        int child, nextRow = row, nextColumn = column;
         if (isNgon) {
             child = at.child;
         } else if (isCatmark) {
             bool const isHighRow = row >= half, isHigh = column >= half;
             child = isHighRow ? (isHigh ? 2 : 3) : (isHigh ? 1 : 0);
-            row -= isHighRow ? half : 0;
-            column -= isHigh ? half : 0;
+            nextRow -= isHighRow ? half : 0;
+            nextColumn -= isHigh ? half : 0;
         } else if (column >= half) {
             child = 1;
-            column -= half;
+            nextColumn -= half;
         } else if (row >= half) {
             child = 2;
-            row -= half;
+            nextRow -= half;
         } else if (row + column <= half) {
             child = 0;
         } else {
             child = 3;
-            row = half - row;
-            column = half - column;
+            nextRow = half - row;
+            nextColumn = half - column;
         }
-        isNgon = false;
-        TileRing next =
-            TileRings(topology, 1).Find(topology.Level(0).GetFaceChildFaces(ring.tileFace)[child], 0, k - 1);
+        RegionLevels levels(topology);
+        int const childFace = topology.Level(0).GetFaceChildFaces(ring.tileFace)[child];
+        if (!IsRefinedAlike(levels, 1, childFace)) break;
+        points = RefinePoints(topology.RecordMasks<double>(1), points, 1);
+        TileRing next = TileRings(topology, 1).Find(childFace, 0, k - 1);
         points = pointsOf(next.vertices, points);
         ring = std::move(next);
+        row = nextRow;
+        column = nextColumn;
+        isNgon = false;
         --k;
     }
 
@@ -139,7 +150,9 @@ Vec3<double> ExactNormals::Find(int tile, GridPoint const& at, PointView<float> 
     CreaseRegions const regions(topology, k, 1);
     LimitStep<double> const step(topology, k, regions, 1);
     LimitNormals<double> const limits = ComputeLimitNormals(step, points, 1);
-    FaceCorner const corner = FindFaceGrid(topology, 0, ring.tileFace, k)[index(row * ((1 << k) + 1) + column)];
+    int const gridFace = isNgon ? topology.Level(0).GetFaceChildFaces(ring.tileFace)[at.child] : ring.tileFace;
+    int const side = 1 << (isNgon ? k - 1 : k);
+    FaceCorner const corner = FindFaceGrid(topology, isNgon ? 1 : 0, gridFace, k)[index(row * (side + 1) + column)];
     return limits.normals[index(regions.CornerValue(corner.face, corner.corner))];
 }
 

@@ -31,7 +31,7 @@ std::vector<FaceCorner> FindFaceGrid(RefinedTopology const& topology, int level,
 
 /// How a face of a level is found from one some levels higher.
 struct FacePath {
-    int face = 0;               ///< of the higher level
+    int face = -1;              ///< of the higher level
     std::vector<int> children;  ///< by index among the children, downwards
 };
 FacePath FindFacePath(RefinedTopology const& topology, int level, int face, int higherLevel);

@@ -546,7 +546,7 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
             for (GridPoint const& point : points) {
                 if (point.child != filled) {
                     filled = point.child;
-                    grid = isNgon ? FindFaceGrid(all, 1, base.GetFaceChildFaces(f)[filled], lastLevel)
+                    grid = isNgon ? FindFaceGrid(all, 1, all.Level(0).GetFaceChildFaces(f)[filled], lastLevel)
                                   : FindFaceGrid(all, 0, f, lastLevel);
                 }
                 FaceCorner const at = grid[index(point.row * (side + 1) + point.column)];

@@ -24,6 +24,10 @@ using Row = std::vector<std::pair<int, double>>;
 constexpr int kLargestDense = 2;
 /// The same of a regular triangle, whose matrix all share.
 constexpr int kLargestDenseTriangle = 4;
+/// The same where small tiles can't be made from meshes of their own: what a leaf holds.
+constexpr int kLargestWhole = 4;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// Adds rows up, one term per source.
 class RowSum {
@@ -397,8 +401,14 @@ CompiledTile TileCompiler::Compile(RegionLevels& levels, int level, int face, in
         int const largest = isRegular && q <= 1 ? kLargestDenseTriangle : kLargestDense;
         bool const isNgon = isCatmark() && size != 4;
         TileOwnership const turned = own.Rotated(tile.rotation);
-        TileClass made = isNgon || k > largest ? makeSplit(ring, k, q, turned) : makeDense(ring, k, q, turned);
-        made.size = size;
+        TileClass made;
+        if (isNgon || k > largest) {
+            made = makeSplit(ring, k, q, turned);
+        } else {
+            RefinedTopology const topology(ring.Mesh(_contents.rules), k);
+            RegionLevels ringLevels(topology);
+            made = makeDense(ringLevels, 0, ring.tileFace, k, q, turned, false);
+        }
         tile.tileClass = static_cast<int>(_dictionary.classes.size());
         _dictionary.classes.push_back(std::move(made));
         _classOfKey.emplace(std::move(key), tile.tileClass);
@@ -632,16 +642,39 @@ TileClass TileCompiler::makeSplit(TileRing const& ring, int k, int q, TileOwners
     RegionLevels levels(topology);
     Far::TopologyLevel const& base = levels.Level(0);
     int const normalLevel = std::max(1, q);  // where the children's normals are found
+    Far::ConstIndexArray const childFaces = base.GetFaceChildFaces(ring.tileFace);
+
+    // A mesh made anew from the next level is refined as that level was: but not at non-manifold creases, whose
+    // vertices OpenSubdiv would make corners.
+    bool const isAsRefined = std::all_of(childFaces.begin(), childFaces.end(),
+                                         [&](int child) { return IsRefinedAlike(levels, 1, child); });
+    if (!isAsRefined) {
+        RefinedTopology const all(ring.Mesh(_contents.rules), k);
+        RegionLevels allLevels(all);
+        TileClass whole = makeWhole(allLevels, 0, ring.tileFace, k, q, own);
+        for (int v = 0; v < ring.numVertices; ++v) whole.ringVertices.push_back(localIndex(index(v)));
+        if (_contents.hasSubdividedNormals) {
+            Far::TopologyLevel const& start = allLevels.Level(q);
+            whole.normalLocators.resize(index(whole.numNormalSources));
+            for (int f = 0; f < start.GetNumFaces(); ++f) {
+                for (int corner = 0; corner < start.GetFaceVertices(f).size(); ++corner) {
+                    NormalLocator& locator = whole.normalLocators[index(allLevels.ValueAt(q, {f, corner}))];
+                    if (locator.path.face < 0) locator = locate(all, q, {f, corner});
+                }
+            }
+        }
+        return whole;
+    }
 
     TileClass made;
     made.kind = TileKind::Split;
+    made.size = static_cast<int>(own.corners.size());
     made.k = static_cast<std::uint8_t>(k);
     made.numNormalLevels = static_cast<std::uint8_t>(q);
     made.isNgon = isCatmark() && own.corners.size() != 4;
 
     // The children, and what they need of the next level.
     std::vector<CompiledTile> children;
-    Far::ConstIndexArray const childFaces = base.GetFaceChildFaces(ring.tileFace);
     std::vector<unsigned char> needsVertex(static_cast<std::size_t>(levels.Level(1).GetNumVertices()), 0);
     std::vector<int> valueVertex;  // of the children's level, by needed value; -1: not needed
     if (_contents.hasSubdividedNormals) {
@@ -765,13 +798,41 @@ TileClass TileCompiler::makeSplit(TileRing const& ring, int k, int q, TileOwners
     return made;
 }
 
-TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwnership const& own) {
-    RefinedTopology const topology(ring.Mesh(_contents.rules), k);
-    RegionLevels levels(topology);
-    Far::TopologyLevel const& last = levels.Level(k);
+TileClass TileCompiler::makeWhole(RegionLevels& levels, int level, int face, int k, int q,
+                                  TileOwnership const& own) {
+    bool const isNgon = isCatmark() && own.corners.size() != 4;
+    if (k <= kLargestWhole && !isNgon) return makeDense(levels, level, face, k, q, own, true);
+    TileClass made;
+    made.kind = TileKind::Split;
+    made.k = static_cast<std::uint8_t>(k);
+    made.numNormalLevels = static_cast<std::uint8_t>(q);
+    made.isNgon = isNgon;
+    made.size = static_cast<int>(own.corners.size());
+    made.numSources = levels.Level(0).GetNumVertices();
+    made.numNormalSources = _contents.hasSubdividedNormals ? levels.Regions(q).NumValues() : 0;
+    Far::ConstIndexArray const childFaces = levels.Level(level).GetFaceChildFaces(face);
+    for (int i = 0; i < childFaces.size(); ++i) {
+        TileClass child = makeWhole(levels, level + 1, childFaces[i], k - 1, q, own.OfChild(i, k, isCatmark()));
+        made.numPoints += child.numPoints;
+        made.numLeaves += child.numLeaves;
+        ChildTile entry;
+        entry.tileClass = static_cast<int>(_dictionary.classes.size());
+        for (int j = 0; j < made.numSources; ++j) entry.pointIndices.push_back(localIndex(index(j)));
+        for (int j = 0; j < made.numNormalSources; ++j) entry.normalIndices.push_back(localIndex(index(j)));
+        _dictionary.classes.push_back(std::move(child));
+        made.children.push_back(std::move(entry));
+    }
+    return made;
+}
+
+TileClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face, int k, int q,
+                                  TileOwnership const& own, bool takesAll) {
+    RefinedTopology const& topology = levels.Topology();
+    int const lastLevel = tileLevel + k;
+    Far::TopologyLevel const& last = levels.Level(lastLevel);
     FieldLevels<double> const fields(topology, 0, 1);
-    LimitStep<double> const limit(topology, k, fields.Regions(k), 1);
-    std::vector<FaceCorner> const grid = FindFaceGrid(topology, 0, ring.tileFace, k);
+    LimitStep<double> const limit(topology, lastLevel, fields.Regions(lastLevel), 1);
+    std::vector<FaceCorner> const grid = FindFaceGrid(topology, tileLevel, face, lastLevel);
     int const side = 1 << k;
 
     TileClass made;
@@ -779,6 +840,7 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
     made.k = static_cast<std::uint8_t>(k);
     made.numNormalLevels = static_cast<std::uint8_t>(q);
     made.numLeaves = 1;
+    made.size = static_cast<int>(own.corners.size());
 
     // The points that it writes, and the rows of each over vertices and values of the last level.
     struct Point {
@@ -789,7 +851,7 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
     std::vector<int> averageVertices;
     bool const isAverageOnly = _contents.normals == LimitNormalKind::FaceAverage;
     if (isAverageOnly) made.averages.weight = _contents.faceWeight;
-    TangentRows tangents(levels, limit, k, grid);
+    TangentRows tangents(levels, limit, lastLevel, grid);
     for (int row = 0; row <= side; ++row) {
         for (int column = 0; column <= side; ++column) {
             if ((!isCatmark() && row + column > side) || !own.Has(row, column, k, isCatmark())) continue;
@@ -807,16 +869,16 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
                     {static_cast<int>(points.size()), static_cast<int>(made.averages.faces.size())});
                 for (std::size_t i = 0; i < frame.fan.faces.size(); ++i) {
                     Far::ConstIndexArray const vertices = last.GetFaceVertices(frame.fan.faces[i]);
-                    AverageFace face;
-                    face.size = vertices.size();
-                    face.corner = frame.fan.corners[i];
-                    for (int j = 0; j < face.size && j < 4; ++j) {
+                    AverageFace averaged;
+                    averaged.size = vertices.size();
+                    averaged.corner = frame.fan.corners[i];
+                    for (int j = 0; j < averaged.size && j < 4; ++j) {
                         needsVertex[static_cast<std::size_t>(vertices[j])] = 1;
-                        face.rows[j] = vertices[j];  // numbered below
+                        averaged.rows[j] = vertices[j];  // numbered below
                     }
                     // A face of other size is met at level 0 only, where limits need quads.
-                    assert(face.size <= 4);
-                    made.averages.faces.push_back(face);
+                    assert(averaged.size <= 4);
+                    made.averages.faces.push_back(averaged);
                 }
             } else {
                 for (std::size_t i = 0; i < frame.vertices.size(); ++i) {
@@ -825,7 +887,7 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
                 }
             }
             if (_contents.hasSubdividedNormals) {
-                limit.AppendTerms(v, fields.Regions(k).CornerValue(at.face, at.corner), point.normal);
+                limit.AppendTerms(v, fields.Regions(lastLevel).CornerValue(at.face, at.corner), point.normal);
             }
             for (Row const* terms : {&point.position, &point.tangent1, &point.tangent2}) {
                 for (auto const& [vertex, weight] : *terms) needsVertex[static_cast<std::size_t>(vertex)] = 1;
@@ -838,7 +900,7 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
 
     // Vertices of the last level from those of the ring.
     std::vector<std::size_t> numVertices, numValues;
-    for (int l = 0; l <= k; ++l) {
+    for (int l = 0; l <= lastLevel; ++l) {
         numVertices.push_back(static_cast<std::size_t>(levels.Level(l).GetNumVertices()));
         numValues.push_back(static_cast<std::size_t>(fields.Regions(l).NumValues()));
     }
@@ -847,7 +909,7 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
         if (needsVertex[v]) neededVertices.push_back(static_cast<int>(v));
     }
     std::vector<Row> const vertexRows =
-        refineRows(0, k, numVertices, neededVertices, [&](int level, int vertex, Row& terms) {
+        refineRows(0, lastLevel, numVertices, neededVertices, [&](int level, int vertex, Row& terms) {
             LevelMasks<double> const& masks = fields.Masks(level);
             auto const row = static_cast<std::size_t>(masks.Row(vertex));
             int const firstFaceChild = topology.FirstFaceChild(level - 1);
@@ -863,7 +925,7 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
             }
         });
 
-    std::vector<unsigned char> usesVertex(numVertices[0], 0);
+    std::vector<unsigned char> usesVertex(numVertices[0], takesAll);
     for (int const v : neededVertices) {
         for (auto const& [source, weight] : vertexRows[static_cast<std::size_t>(v)]) {
             usesVertex[static_cast<std::size_t>(source)] = 1;
@@ -873,7 +935,7 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
     for (std::size_t v = 0; v < usesVertex.size(); ++v) {
         if (!usesVertex[v]) continue;
         localOfVertex[v] = made.numSources++;
-        made.ringVertices.push_back(localIndex(v));
+        if (!takesAll) made.ringVertices.push_back(localIndex(v));
     }
     RowSum sum(static_cast<std::size_t>(made.numSources));
     auto const compose = [&](Row const& terms) {
@@ -902,18 +964,18 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
     if (!made.averages.normals.empty()) {
         std::vector<int> rowOfVertex(numVertices.back(), -1);
         int numRows = 0;
-        for (AverageFace& face : made.averages.faces) {
-            for (int j = 0; j < face.size; ++j) {
-                int& row = rowOfVertex[static_cast<std::size_t>(face.rows[j])];
+        for (AverageFace& averaged : made.averages.faces) {
+            for (int j = 0; j < averaged.size; ++j) {
+                int& row = rowOfVertex[static_cast<std::size_t>(averaged.rows[j])];
                 if (row < 0) {
                     row = numRows++;
-                    for (auto const& [source, weight] : compose({{face.rows[j], 1.0}})) {
+                    for (auto const& [source, weight] : compose({{averaged.rows[j], 1.0}})) {
                         made.averages.sources.push_back(localIndex(static_cast<std::size_t>(source)));
                         made.averages.weights.push_back(weight);
                     }
                     made.averages.offsets.push_back(static_cast<std::uint32_t>(made.averages.sources.size()));
                 }
-                face.rows[j] = row;
+                averaged.rows[j] = row;
             }
         }
     }
@@ -930,7 +992,7 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
             if (needsValue[value]) neededValues.push_back(static_cast<int>(value));
         }
         std::vector<std::vector<int>> vertexOfValue(numVertices.size());
-        for (int l = q; l <= k; ++l) {
+        for (int l = q; l <= lastLevel; ++l) {
             CreaseRegions const& regions = fields.Regions(l);
             auto& list = vertexOfValue[static_cast<std::size_t>(l)];
             list.resize(numValues[static_cast<std::size_t>(l)]);
@@ -939,11 +1001,11 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
             }
         }
         std::vector<Row> const valueRows =
-            refineRows(q, k, numValues, neededValues, [&](int level, int value, Row& terms) {
+            refineRows(q, lastLevel, numValues, neededValues, [&](int level, int value, Row& terms) {
                 int const vertex = vertexOfValue[static_cast<std::size_t>(level)][static_cast<std::size_t>(value)];
                 fields.Step(level).AppendTerms(vertex, value, terms);
             });
-        std::vector<unsigned char> usesValue(numValues[first], 0);
+        std::vector<unsigned char> usesValue(numValues[first], takesAll);
         for (int const value : neededValues) {
             for (auto const& [source, weight] : valueRows[static_cast<std::size_t>(value)]) {
                 usesValue[static_cast<std::size_t>(source)] = 1;
@@ -954,11 +1016,13 @@ TileClass TileCompiler::makeDense(TileRing const& ring, int k, int q, TileOwners
         for (int f = 0; f < startLevel.GetNumFaces(); ++f) {
             for (int corner = 0; corner < startLevel.GetFaceVertices(f).size(); ++corner) {
                 auto const value = static_cast<std::size_t>(fields.Regions(q).CornerValue(f, corner));
+                if (takesAll) localOfValue[value] = static_cast<int>(value);
                 if (!usesValue[value] || localOfValue[value] >= 0) continue;
                 localOfValue[value] = made.numNormalSources++;
                 made.normalLocators.push_back(locate(topology, q, {f, corner}));
             }
         }
+        if (takesAll) made.numNormalSources = static_cast<int>(numValues[first]);
         RowSum valueSum(static_cast<std::size_t>(made.numNormalSources));
         std::vector<Row> normalRows;
         for (Point const& point : points) {

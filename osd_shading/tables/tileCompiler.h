@@ -58,7 +58,9 @@ private:
     TileClass makeSpline(std::vector<FaceCorner> const& points, std::vector<FaceCorner> const& normals, int k,
                          int q, unsigned sharpSides, TileOwnership const& own);
     TileClass makeSplit(TileRing const& ring, int k, int q, TileOwnership const& own);
-    TileClass makeDense(TileRing const& ring, int k, int q, TileOwnership const& own);
+    TileClass makeWhole(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own);
+    TileClass makeDense(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own,
+                        bool takesAll);
     int addPlan(std::vector<RowSegment> const& segments);
     int addMatrix(int numPoints, int numFields, std::vector<std::vector<std::pair<int, double>>> const& rows,
                   std::vector<std::uint16_t>& columns);

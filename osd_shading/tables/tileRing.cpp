@@ -139,10 +139,29 @@ TileRing TileRings::Find(int face, int rotation, int numLevels) {
             }
         }
     }
+    if (!_isUniform && hasFadingEdges(ring)) {
+        // By Chaikin's rule how an edge fades depends on all edges at both its ends.
+        std::vector<int> const vertices = ring.vertices;
+        for (int const v : vertices) {
+            Far::ConstIndexArray const around = _level->GetVertexFaces(v);
+            Far::ConstLocalIndexArray const at = _level->GetVertexFaceLocalIndices(v);
+            for (int k = 0; k < around.size(); ++k) add(ring, around[k], needsOrder ? 0 : at[k]);
+        }
+    }
     addSharpness(ring, face, rotation, numLevels);
     for (int const v : ring.vertices) _numberOfVertex[static_cast<std::size_t>(v)] = -1;
     for (int const f : ring.faces) _isFaceInRing[static_cast<std::size_t>(f)] = 0;
     return ring;
+}
+
+bool TileRings::hasFadingEdges(TileRing const& ring) const {
+    for (int const face : ring.faces) {
+        for (int const edge : _level->GetFaceEdges(face)) {
+            float const sharpness = _level->GetEdgeSharpness(edge);
+            if (sharpness > 0 && sharpness < Sdc::Crease::SHARPNESS_INFINITE) return true;
+        }
+    }
+    return false;
 }
 
 void TileRings::addSharpness(TileRing& ring, int face, int rotation, int numLevels) const {
@@ -186,6 +205,15 @@ void TileRings::addSharpness(TileRing& ring, int face, int rotation, int numLeve
         ring.cornerVertices.push_back(_numberOfVertex[static_cast<std::size_t>(v)]);
         ring.cornerSharpness.push_back(canonical(sharpness));
     }
+}
+
+bool IsRefinedAlike(RegionLevels& levels, int level, int face) {
+    for (int const v : levels.Level(level).GetFaceVertices(face)) {
+        if (levels.Level(level).IsVertexNonManifold(v) && levels.Regions(level).Kind(v) != VertexKind::Corner) {
+            return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace tables

@@ -23,8 +23,8 @@ inline bool StaysSharp(float sharpness, int numLevels, bool isUniform) {
 }
 
 /// A face with all faces that share a vertex with it, as a mesh of its own: all that the surface over the face
-/// depends on. Faces and vertices are numbered by a walk round the corners, so that equal neighbourhoods give equal
-/// meshes.
+/// depends on (with semi-sharp creases by Chaikin's rule the faces round those too). Faces and vertices are
+/// numbered by a walk round the corners, so that equal neighbourhoods give equal meshes.
 struct TileRing {
     int numVertices = 0;
     int tileFace = 0;
@@ -54,6 +54,7 @@ public:
 
 private:
     void add(TileRing& ring, int face, int firstCorner);
+    bool hasFadingEdges(TileRing const& ring) const;
     void addSharpness(TileRing& ring, int face, int rotation, int numLevels) const;
 
     RefinedTopology const* _topology;
@@ -80,6 +81,10 @@ private:
     std::vector<std::unique_ptr<CreaseRegions>> _regions;
     std::vector<std::unique_ptr<TileRings>> _rings;
 };
+
+/// Whether the ring of a face of a refined level, as a mesh of its own, is refined as it is there. It is not at
+/// non-manifold creases: OpenSubdiv makes corners of the vertices of one that is a control mesh's.
+bool IsRefinedAlike(RegionLevels& levels, int level, int face);
 
 }  // namespace tables
 }  // namespace v1
