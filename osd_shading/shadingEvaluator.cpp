@@ -29,7 +29,7 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 constexpr int kChunkPoints = 8192;
 
 /// A tangent so much shorter than what it is summed from has lost too many digits.
-constexpr float kShortTangent = 1.0f / 128;
+constexpr float kShortTangent = 1.0f / 64;
 
 void checkSpan(char const* name, float const* data, std::size_t count, std::size_t stride, std::size_t width,
                std::size_t wanted) {
