@@ -23,6 +23,13 @@ struct alignas(16) LocalPoint {
     float v[4];
 };
 
+inline LocalPoint operator+(LocalPoint const& a, LocalPoint const& b) {
+    return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}};
+}
+inline LocalPoint operator-(LocalPoint const& a, LocalPoint const& b) {
+    return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}};
+}
+
 /// A field of three components at a leaf's points, in the order of the output. Each array holds kLeafCapacity
 /// floats and is aligned to 64 bytes; what lies past the points is undefined.
 struct FieldArrays {
