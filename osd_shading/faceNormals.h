@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "osd_shading/creaseRegions.h"
+#include "osd_shading/vectorMath.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -17,6 +18,35 @@ enum class FaceWeight { Uniform, CornerArea, Angle };
 /// The unit normal of a face by its vector area (Newell); zero where it has none.
 template <typename Real>
 Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face);
+
+/// That of a face given by its vertices.
+template <typename Real>
+Vec3<Real> UnitFaceNormal(std::vector<Vec3<Real>> const& points, Far::ConstIndexArray const& vertices);
+
+/// A corner of a face given by its vertices.
+struct FaceCorner {
+    Far::ConstIndexArray vertices;
+    int corner = 0;
+};
+
+/// What each of the corners at one vertex counts, up to a factor that they share.
+template <typename Real>
+void WeighCorners(std::vector<Vec3<Real>> const& points, FaceWeight weight, std::vector<FaceCorner> const& corners,
+                  std::vector<Real>& weights);
+
+/// A sum of unit normals (or zeros, which do not count) and of their weights.
+template <typename Real>
+struct NormalSum {
+    Vec3<Real> sum{};
+    Real added = 0;
+
+    void Add(Vec3<Real> const& unit, Real weight) {
+        if (IsZero(unit)) return;
+        sum += weight * unit;
+        added += weight;
+    }
+    Vec3<Real> Unit() const { return NormalizedSum(sum, added); }
+};
 
 /// The normalised sum of the unit normals of a region's faces; zero where it vanishes.
 template <typename Real>

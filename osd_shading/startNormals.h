@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "osd_shading/limitFrames.h"
+#include "osd_shading/faceNormals.h"
+#include "osd_shading/limitMasks.h"
 #include "osd_shading/shadingOptions.h"
 
 namespace osd_shading {
@@ -29,6 +30,11 @@ StartNormals<Real> ComputeStartNormals(StartNormalKind kind, RefinedTopology con
 template <typename Real>
 StartNormals<Real> GatherUserNormals(RefinedTopology const& topology, CreaseRegions const& regions,
                                      PointView<Real> vertexNormals, PointView<Real> faceVaryingNormals);
+
+/// The values that StartNormalKind::LimitSmoothed replaces by their limit: those of vertices that are not sharp in
+/// the faces round an extraordinary vertex that is not.
+template <typename Real>
+ValueMarks MarkSmoothed(LimitStep<Real> const& step);
 
 /// The face weight that a kind of start normal stands for; uniform for those that use none.
 FaceWeight FaceWeightOf(StartNormalKind kind);
