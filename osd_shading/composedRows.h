@@ -213,7 +213,8 @@ public:
 
 private:
     bool isSharp(int vertex) const { return _isSharp[static_cast<std::size_t>(vertex)] != 0; }
-    std::vector<unsigned char> findWeightedFaces(ShadingOptions const& options) const;
+    double supportOf(int face, std::vector<int>& lastFaces) const;
+    std::vector<double> findWeightedShares(ShadingOptions const& options) const;
 
     Far::TopologyRefiner const& _refiner;
     Far::TopologyLevel _base;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "osd_shading/blendedNormals.h"
+#include "osd_shading/composedRows.h"
 #include "osd_shading/io/objReader.h"
 #include "tests/sampleSize.h"
 #include "tests/testHelpers.h"
@@ -64,8 +65,10 @@ struct Normals {
     std::vector<double> errors;
 };
 
-// Weights, products and sums are each rounded to 2^-24 of what is added up, a few times over.
+// Weights, products and sums are each rounded to 2^-24 of what is added up, a few times over; the evaluator adds
+// one term after the other.
 constexpr double kRounding = 1.0 / (1 << 21);
+double RoundingOf(int numTerms) { return std::fmax(kRounding, numTerms / double(1 << 24)); }
 
 double LargestOf(Points const& points) {
     double largest = 0;
@@ -90,14 +93,15 @@ Normals NormalsOf(NormalStencils const& stencils, Points const& control) {
             addedV += std::fabs(double(rows.dvWeights[Index(k)])) * length;
         }
         double const area = double(Length(Cross(frames.du[i], frames.dv[i])));
-        normals.errors[i] =
-            kRounding * (addedU * double(Length(frames.dv[i])) + addedV * double(Length(frames.du[i]))) / area;
+        normals.errors[i] = RoundingOf(rows.sizes[i]) *
+                            (addedU * double(Length(frames.dv[i])) + addedV * double(Length(frames.du[i]))) / area;
     }
 
     // By faces: the points' rounding over the faces' size.
     FaceAverages const& averages = stencils.averages;
     double const rounding = kRounding * LargestOf(control);
     std::vector<double> faceErrors;
+    std::vector<int> faceOffsets;
     std::vector<Vec3<double>> faceUnits;
     int const* face = averages.faceVertices.data();
     for (int const size : averages.faceSizes) {
@@ -111,21 +115,33 @@ Normals NormalsOf(NormalStencils const& stencils, Points const& control) {
             area += Cross(at(i) - at(0), at(i + 1) - at(0));
             around += Length(at(i + 1) - at(i));
         }
+        faceOffsets.push_back(static_cast<int>(face - averages.faceVertices.data()));
         faceErrors.push_back(rounding * around / Length(area));
         faceUnits.push_back(Normalized(area));
         face += size;
     }
     for (std::size_t i = 0; i < averages.normals.size(); ++i) {
-        // Faces weigh differently, but none more than all: bounded as if the one of largest error were alone.
-        double largest = 0;
+        double largest = 0, added = 0;
         Vec3<double> sum{};
-        int const begin = averages.offsets[i], end = averages.offsets[i + 1];
-        for (int k = begin; k < end; ++k) {
-            largest = std::fmax(largest, faceErrors[Index(averages.faces[Index(k)])]);
-            sum += faceUnits[Index(averages.faces[Index(k)])];
+        for (int k = averages.offsets[i]; k < averages.offsets[i + 1]; ++k) {
+            auto const f = Index(averages.faces[Index(k)]);
+            int const* const vertices = averages.faceVertices.data() + faceOffsets[f];
+            int const size = averages.faceSizes[f], corner = averages.corners[Index(k)];
+            auto const sideTo = [&](int other) {
+                Vec3<float> const p = points[Index(vertices[corner])], q = points[Index(vertices[other % size])];
+                return Vec3<double>{double(q.x) - double(p.x), double(q.y) - double(p.y),
+                                    double(q.z) - double(p.z)};
+            };
+            Vec3<double> const after = sideTo(corner + 1), before = sideTo(corner + size - 1);
+            double const weight = averages.weight == StartNormalKind::CornerArea ? Length(Cross(after, before))
+                                  : averages.weight == StartNormalKind::Angle    ? AngleBetween(after, before)
+                                                                                 : 1;
+            largest = std::fmax(largest, faceErrors[f]);
+            sum += weight * faceUnits[f];
+            added += weight;
         }
-        // Weights of corners lose as much as the faces do; a sum that is short doubles it.
-        normals.errors[Index(averages.normals[i])] = 4 * (largest + kRounding) * (end - begin) / Length(sum);
+        // As if the face of largest error were alone; weights lose as much as their faces do.
+        normals.errors[Index(averages.normals[i])] = 4 * (largest + kRounding) * added / Length(sum);
     }
     return normals;
 }
@@ -138,7 +154,7 @@ Normals Combine(StencilRows const& rows, Normals const& sources) {
         double error = 0;
         for (int k = rows.offsets[i]; k < rows.offsets[i] + rows.sizes[i]; ++k) {
             error += std::fabs(double(rows.weights[Index(k)])) *
-                     (sources.errors[Index(rows.indices[Index(k)])] + kRounding);
+                     (sources.errors[Index(rows.indices[Index(k)])] + RoundingOf(rows.sizes[i]));
         }
         normals.errors.push_back(rows.sizes[i] == 0 ? 0 : error / double(Length(normals.units[i])));
         normals.units[i] = Normalized(normals.units[i]);
@@ -155,8 +171,8 @@ struct Case {
 };
 
 struct Counts {
-    std::int64_t values = 0, skipped = 0;
-    double largestP = 0, largestN = 0;  // of those not skipped
+    std::int64_t values = 0, skipped = 0, above = 0;  // above: differ by more than 1e-5
+    double largestP = 0, largestN = 0;                // of those not skipped
 };
 
 /// Follows the recipe and compares each number with ShadeSubdivision's in double.
@@ -191,7 +207,8 @@ void ExpectSame(Case const& which, ShadingOptions const& options, Counts& counts
     for (std::size_t i = 0; i < frames.p.size(); ++i) {
         double const difference =
             Distance(widen(frames.p[i]), expected.positions[Index(expected.valueVertices[i])]);
-        ASSERT_LE(difference, 1e-6 * size) << name << " value " << i;
+        int const numTerms = stencils.limits.frames.sizes[i];
+        ASSERT_LE(difference, std::fmax(1e-6, RoundingOf(numTerms)) * size) << name << " value " << i;
         counts.largestP = std::fmax(counts.largestP, difference / size);
     }
 
@@ -216,12 +233,13 @@ void ExpectSame(Case const& which, ShadingOptions const& options, Counts& counts
                                 char const* what, std::size_t value) {
         ++counts.values;
         // The definition's fallbacks begin where double can't tell a normal, these tables' zeros where float can't.
-        if (!(error < 1e-3)) {
+        if (!(error < 0.05)) {
             ++counts.skipped;
             return;
         }
         double const difference = Distance(widen(found), normal);
         EXPECT_LE(difference, 1e-6 + error) << name << " " << what << " of value " << value;
+        counts.above += difference > 1e-5;
         counts.largestN = std::fmax(counts.largestN, difference);
     };
     for (std::size_t i = 0; i < limits.units.size(); ++i) {
@@ -316,13 +334,15 @@ void ExpectSameShape(Shape const& shape, int lastLevel, Counts& counts) {
     ExpectSameWithManyOptions({shape.name, shape.Mesh(), PointsOf<float>(shape), {}, false}, lastLevel, counts);
 }
 
+/// Prints the figures, and expects next to all normals to be compared.
 void Report(Counts const& counts) {
-    ::testing::Test::RecordProperty("values", static_cast<int>(counts.values));
     std::printf(
-        "             %lld normals compared, %lld degenerate ones skipped, largest difference %.2g (positions "
-        "%.2g of the size)\n",
-        static_cast<long long>(counts.values), static_cast<long long>(counts.skipped), counts.largestN,
-        counts.largestP);
+        "             %lld normals compared, %lld differ by more than 1e-5 and %.2g at most; %lld degenerate ones "
+        "skipped; positions differ by %.2g of the size\n",
+        static_cast<long long>(counts.values), static_cast<long long>(counts.above), counts.largestN,
+        static_cast<long long>(counts.skipped), counts.largestP);
+    EXPECT_LE(counts.skipped, counts.values / 50);
+    EXPECT_LE(counts.above, counts.values / 50);
 }
 
 int const kLastLevel = IsSanitizerRun() ? 2 : 3;
@@ -430,7 +450,7 @@ TEST(ShadingStencils, OfAllModelsGiveWhatShadeSubdivisionGives) {
             if (scheme == Sdc::SCHEME_LOOP && !isTriangles) continue;
             SubdivisionRules rules;
             rules.scheme = scheme;
-            int const level = model.NumFaces() < 100 && !IsSanitizerRun() ? 3 : 2;
+            int const level = model.NumFaces() < 100 && IsFullRun() ? 3 : 2;
             for (ShadingOptions const& options : ManyOptions(level, scheme == Sdc::SCHEME_LOOP)) {
                 ExpectSame({model.name, model.Mesh(model.Rules(rules)), control, {}, false}, options, counts);
             }
@@ -502,6 +522,28 @@ TEST(ShadingStencils, ListCornersOfSeveralFacesWithTheFacesThatTheyAverage) {
     // Nothing else is listed.
     EXPECT_LT(averages.normals.size(), frames.sizes.size());
     EXPECT_EQ(stencils.starts.averages.normals.size(), stencils.starts.vertices.size());
+}
+
+TEST(ShadingStencils, OfNormalsAreNotMoreThanTheEstimate) {
+    std::vector<Shape> all = AllShapes();
+    for (std::uint64_t seed = 0; seed < SampleSize(60); ++seed) {
+        shapes::RandomShapeOptions options;
+        options.triangles = seed % 2 != 0;
+        all.push_back(shapes::RandomShape(seed, options));
+        if (options.triangles) all.back().Loop();
+    }
+    for (Shape const& shape : all) {
+        RefinedTopology const base(shape.Mesh(), 0);
+        RowEstimate const estimate(base.Refiner());
+        for (ShadingOptions const& options : ManyOptions(3, shape.rules.scheme == Sdc::SCHEME_LOOP)) {
+            ShadingStencils const stencils = BuildShadingStencils(shape.Mesh(), options);
+            double const numTerms = static_cast<double>(stencils.subdividedNormals.indices.size());
+            EXPECT_GE(estimate.NormalTerms(stencils.options), numTerms)
+                << shape.name << " n " << stencils.options.startNormals.level << " w "
+                << stencils.options.weights.level << " scheme " << static_cast<int>(options.weights.scheme)
+                << " variant " << static_cast<int>(options.weights.sharpVertices);
+        }
+    }
 }
 
 TEST(ShadingStencils, RefuseInWords) {
