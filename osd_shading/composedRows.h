@@ -148,7 +148,7 @@ struct ComposedLevel {
         SparseRows<double, 1> const& from = at >= 0 ? plain : derived;
         auto const row = static_cast<std::size_t>(at >= 0 ? at : ~at);
         for (std::size_t t = from.offsets[row]; t < from.offsets[row + 1]; ++t) {
-            std::array<double, Width> product;
+            std::array<double, Width> product{};
             for (std::size_t i = 0; i < Width; ++i) product[i] = from.weights[0][t] * weights[i];
             sum.Add(from.sources[t], product);
         }

@@ -67,13 +67,12 @@ bool dropDegenerateTangents(RowSum<3>& sum, LimitFrame<double> const& frame) {
     };
     std::array<double, 3> const smallest{0, kVanishing<double> * lengthOf(frame.tangent1),
                                          kVanishing<double> * lengthOf(frame.tangent2)};
-    double squareU = 0, squareV = 0, product = 0;
+    double squareU = 0, product = 0;
     for (auto& term : sum.Terms()) {
         double &u = term.weights[1], &v = term.weights[2];
         if (std::fabs(u) <= smallest[1]) u = 0;
         if (std::fabs(v) <= smallest[2]) v = 0;
         squareU += u * u;
-        squareV += v * v;
         product += u * v;
     }
     // What is left of dv across du.
@@ -256,6 +255,9 @@ StencilRows makeSubdivided(ShadingOptions const& options, FieldLevels<double> co
     // Trace back what they need.
     ValueMarks marks(weights.size());
     for (std::size_t value = 0; value < weights.size(); ++value) marks[value] = weights[value] > 0;
+    if (std::find(marks.begin(), marks.end(), 1) == marks.end()) {
+        return toStencils(SparseRows<float, 1>{}, levels.Regions(first).NumValues());
+    }
     std::vector<ValueMarks> needed(static_cast<std::size_t>(last) + 1);
     limit.MarkSources(marks, needed[static_cast<std::size_t>(last)]);
     for (int level = last; level > first; --level) {
@@ -304,12 +306,13 @@ void checkSize(Far::TopologyRefiner const& refiner, ShadingOptions const& option
     RowEstimate const estimate(refiner);
     int const start = options.startNormals.level;
     bool const averagesAll = options.limits.normals == LimitNormalKind::FaceAverage;
-    // Bytes: a term of the frames is an index and three weights, of other tables an index and one; while a level is
-    // composed there is one of it and of its parent, in double; lists of faces have some 30 a corner.
+    // Bytes, as measured: a term of the frames is an index and three weights, and while they are built one in
+    // double and what is not yet joined; of other tables an index and a weight; lists of faces have some 30 a
+    // corner.
     double const limits = estimate.PointTerms(options.level), starts = estimate.PointTerms(start);
     double const normals = estimate.NormalTerms(options);
     double const corners = 4 * (estimate.NumFaces(start) + (averagesAll ? estimate.NumFaces(options.level) : 0));
-    double const bytes = (16 + 15 + (averagesAll ? 8 : 0)) * limits + 16 * starts + 8 * normals + 30 * corners;
+    double const bytes = (16 + 24 + (averagesAll ? 8 : 0)) * limits + 16 * starts + 8 * normals + 30 * corners;
     estimate.Check(options, std::max({limits, starts, normals}), std::max(bytes, 23 * normals));
 }
 

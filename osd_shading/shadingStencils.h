@@ -106,10 +106,12 @@ struct ShadingStencils {
     NormalStencils limits;            ///< of the values at level L; frames give P by options.limits.positions
     std::vector<float> blendWeights;  ///< per value: the limit of b, in [0, 1]
 
-    NormalStencils starts;          ///< of the start normals, one per (vertex, region) of M_n
-    StencilRows startSmoothing;     ///< LimitSmoothed: start normals to start normals; otherwise no rows
-    StencilRows userNormals;        ///< User: face corners to start normals; otherwise no rows
-    StencilRows subdividedNormals;  ///< per value: start normals to N_S; empty rows where b = 0
+    NormalStencils starts;       ///< of the start normals, one per (vertex, region) of M_n
+    StencilRows startSmoothing;  ///< LimitSmoothed: start normals to start normals; otherwise no rows
+    StencilRows userNormals;     ///< User: face corners to start normals; otherwise no rows
+    /// Per value: start normals to N_S; empty rows where b = 0. Without rows where b = 0 everywhere: OpenSubdiv's
+    /// evaluators must not be given rows without any index.
+    StencilRows subdividedNormals;
 
     int NumValues() const { return static_cast<int>(blendWeights.size()); }
 };

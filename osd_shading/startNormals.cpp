@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "osd_shading/extraordinaryVertices.h"
-#include "osd_shading/limitFrames.h"
 #include "osd_shading/vectorMath.h"
 
 namespace osd_shading {

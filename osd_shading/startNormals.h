@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "osd_shading/faceNormals.h"
-#include "osd_shading/limitMasks.h"
+#include "osd_shading/limitFrames.h"
 #include "osd_shading/shadingOptions.h"
 
 namespace osd_shading {

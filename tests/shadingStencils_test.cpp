@@ -198,7 +198,8 @@ void ExpectSame(Case const& which, ShadingOptions const& options, Counts& counts
     for (std::size_t i = 0; i < stencils.blendWeights.size(); ++i) {
         ASSERT_EQ(stencils.blendWeights[i] > 0, expected.blendWeights[i] > 0) << name << " value " << i;
         ASSERT_NEAR(double(stencils.blendWeights[i]), expected.blendWeights[i], 6e-8) << name;
-        ASSERT_EQ(stencils.subdividedNormals.sizes[i] > 0, expected.blendWeights[i] > 0) << name;
+        bool const hasRow = stencils.subdividedNormals.NumRows() > 0 && stencils.subdividedNormals.sizes[i] > 0;
+        ASSERT_EQ(hasRow, expected.blendWeights[i] > 0) << name;
     }
 
     // Positions.
@@ -341,8 +342,8 @@ void Report(Counts const& counts) {
         "skipped; positions differ by %.2g of the size\n",
         static_cast<long long>(counts.values), static_cast<long long>(counts.above), counts.largestN,
         static_cast<long long>(counts.skipped), counts.largestP);
-    EXPECT_LE(counts.skipped, counts.values / 50);
-    EXPECT_LE(counts.above, counts.values / 50);
+    EXPECT_LE(counts.skipped, counts.values / 20);
+    EXPECT_LE(counts.above, counts.values / 20);  // the slivers round the models' poles of 360 faces
 }
 
 int const kLastLevel = IsSanitizerRun() ? 2 : 3;
@@ -497,6 +498,17 @@ TEST(ShadingStencils, AreGivenToOpenSubdivsGpuBuffersAsItsOwnTables) {
     EXPECT_EQ(points->GetSizes(), stencils.subdividedNormals.sizes);
     EXPECT_EQ(points->GetControlIndices(), stencils.subdividedNormals.indices);
     EXPECT_EQ(points->GetWeights(), stencils.subdividedNormals.weights);
+}
+
+TEST(ShadingStencils, WhereNothingIsWeightedThereAreNoRowsOfSubdividedNormals) {
+    ShadingStencils const torus = BuildShadingStencils(shapes::Torus(5, 4).Mesh(), PaperPreset(2));
+    EXPECT_EQ(torus.subdividedNormals.NumRows(), 0);
+    EXPECT_EQ(torus.subdividedNormals.numSources, 80);
+    EXPECT_EQ(torus.limits.frames.NumRows(), 320);
+    // The same from variant B on a cube whose extraordinary vertices are all corners.
+    ShadingOptions options = PaperPreset(2);
+    options.weights.level = 2;
+    EXPECT_EQ(BuildShadingStencils(shapes::Cube().CreaseAll().Mesh(), options).subdividedNormals.NumRows(), 0);
 }
 
 TEST(ShadingStencils, ListCornersOfSeveralFacesWithTheFacesThatTheyAverage) {
