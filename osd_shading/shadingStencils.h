@@ -121,7 +121,7 @@ struct ShadingStencils {
 /// ERRORS: as ShadeSubdivision; InvalidOptions for other averaging; MemoryLimitExceeded, before anything large is
 /// taken, also where a table would have more than 2^31 - 1 indices.
 /// COST: a row has some 16 indices (Loop: 12) on regular ground, and as many as a control vertex of N faces has
-/// around it near that: 300 to 400 bytes for each face of level L, twice that while building.
+/// around it near that: some 300 bytes for each face of level L, 1,200 while building; some 5 microseconds a value.
 OSD_SHADING_API ShadingStencils BuildShadingStencils(ControlMesh const& mesh, ShadingOptions const& options = {});
 
 /// From level 0 of an existing refiner, refined or not, which is not modified or needed afterwards.

@@ -343,7 +343,7 @@ void Report(Counts const& counts) {
         static_cast<long long>(counts.values), static_cast<long long>(counts.above), counts.largestN,
         static_cast<long long>(counts.skipped), counts.largestP);
     EXPECT_LE(counts.skipped, counts.values / 20);
-    EXPECT_LE(counts.above, counts.values / 20);  // the slivers round the models' poles of 360 faces
+    EXPECT_LE(counts.above, counts.values / 20);  // slivers: the models' poles of 360 faces, the rook
 }
 
 int const kLastLevel = IsSanitizerRun() ? 2 : 3;
