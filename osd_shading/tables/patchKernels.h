@@ -30,6 +30,21 @@ inline LocalPoint operator-(LocalPoint const& a, LocalPoint const& b) {
     return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}};
 }
 
+/// The larger size of each component, without signs.
+inline LocalPoint LargerOf(LocalPoint const& a, LocalPoint const& b) {
+    LocalPoint c;
+    for (int i = 0; i < 4; ++i) {
+        float const size = b.v[i] < 0 ? -b.v[i] : b.v[i];
+        c.v[i] = a.v[i] > size ? a.v[i] : size;
+    }
+    return c;
+}
+/// The largest component of a point that has no signs: at most its length, and more than half of it.
+inline float LengthBound(LocalPoint const& a) {
+    float const xy = a.v[0] > a.v[1] ? a.v[0] : a.v[1];
+    return xy > a.v[2] ? xy : a.v[2];
+}
+
 /// A field of three components at a leaf's points, in the order of the output. Each array holds kLeafCapacity
 /// floats and is aligned to 64 bytes; what lies past the points is undefined.
 struct FieldArrays {
@@ -112,6 +127,12 @@ struct PatchKernels {
     /// matrix * points[indices[0 .. numColumns)]; fields[0 .. numFields).
     void (*evaluateDense)(DenseMatrix const& matrix, LocalPoint const* points, std::uint16_t const* indices,
                           FieldArrays const* fields);
+
+    /// The same with 3 fields, and at the same time the first field's weights on `normals`.
+    void (*evaluateDenseWithNormals)(DenseMatrix const& matrix, LocalPoint const* points,
+                                     std::uint16_t const* indices, LocalPoint const* normals,
+                                     std::uint16_t const* normalIndices, FieldArrays const* fields,
+                                     FieldArrays const& subdivided);
 
     /// Normals of the tangents, blend, output.
     ///

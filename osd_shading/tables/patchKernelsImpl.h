@@ -27,7 +27,14 @@ template <typename Lanes>
 class KernelsFor {
 public:
     static constexpr PatchKernels Table(char const* name) {
-        return {name, Lanes::kCount, &evaluateSpline, &evaluateSplineFrame, &evaluateDense, &finish, &combine};
+        return {name,
+                Lanes::kCount,
+                &evaluateSpline,
+                &evaluateSplineFrame,
+                &evaluateDense,
+                &evaluateDenseWithNormals,
+                &finish,
+                &combine};
     }
 
 private:
@@ -418,6 +425,45 @@ private:
                 y[v][f].Store(fields[field + f].y + to);
                 z[v][f].Store(fields[field + f].z + to);
             }
+        }
+    }
+
+    static void evaluateDenseWithNormals(DenseMatrix const& matrix, LocalPoint const* points,
+                                         std::uint16_t const* indices, LocalPoint const* normals,
+                                         std::uint16_t const* normalIndices, FieldArrays const* fields,
+                                         FieldArrays const& subdivided) {
+        constexpr std::ptrdiff_t kColumnPitch = std::ptrdiff_t(3) * kDenseBlock;
+        for (int first = 0; first < matrix.numPoints; first += kLanes) {
+            float const* weights =
+                matrix.weights + first / kDenseBlock * kColumnPitch * matrix.numColumns + first % kDenseBlock;
+            V x[3], y[3], z[3], nx = V::Set(0), ny = V::Set(0), nz = V::Set(0);
+            for (int f = 0; f < 3; ++f) x[f] = y[f] = z[f] = V::Set(0);
+            for (int column = 0; column < matrix.numColumns; ++column, weights += kColumnPitch) {
+                float const* const p = points[indices[column]].v;
+                float const* const n = normals[normalIndices[column]].v;
+                V const px = V::Broadcast(p), py = V::Broadcast(p + 1), pz = V::Broadcast(p + 2);
+                V const position = V::Load(weights).Kept();
+                x[0] = MulAdd(position, px, x[0]);
+                y[0] = MulAdd(position, py, y[0]);
+                z[0] = MulAdd(position, pz, z[0]);
+                nx = MulAdd(position, V::Broadcast(n), nx);
+                ny = MulAdd(position, V::Broadcast(n + 1), ny);
+                nz = MulAdd(position, V::Broadcast(n + 2), nz);
+                for (int f = 1; f < 3; ++f) {
+                    V const tangent = V::Load(weights + f * kDenseBlock).Kept();
+                    x[f] = MulAdd(tangent, px, x[f]);
+                    y[f] = MulAdd(tangent, py, y[f]);
+                    z[f] = MulAdd(tangent, pz, z[f]);
+                }
+            }
+            for (int f = 0; f < 3; ++f) {
+                x[f].Store(fields[f].x + first);
+                y[f].Store(fields[f].y + first);
+                z[f].Store(fields[f].z + first);
+            }
+            nx.Store(subdivided.x + first);
+            ny.Store(subdivided.y + first);
+            nz.Store(subdivided.z + first);
         }
     }
 
