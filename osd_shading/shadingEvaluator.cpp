@@ -28,8 +28,10 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 /// Points that a thread takes at a time.
 constexpr int kChunkPoints = 8192;
 
-/// A tangent so much shorter than what it is summed from has lost too many digits.
-constexpr float kShortTangent = 1.0f / 64;
+/// A tangent that reaches less across the other, as a share of what it is summed from, has lost too many digits for
+/// a normal exact to 1e-5. A matrix sums some twenty products whose errors seldom add up; a spline's differences
+/// lose little.
+constexpr float kDenseDoubt = 1.0f / 256, kSplineDoubt = 1.0f / 64;
 
 void checkSpan(char const* name, float const* data, std::size_t count, std::size_t stride, std::size_t width,
                std::size_t wanted) {
@@ -114,7 +116,11 @@ struct ShadingEvaluator::Impl {
 
     Impl(std::shared_ptr<TableData const> tableData, PatchKernels const* patchKernels,
          std::shared_ptr<FrameThreads> frameThreads)
-        : data(std::move(tableData)), kernels(patchKernels), threads(std::move(frameThreads)), startFrame(*data) {
+        : data(std::move(tableData)),
+          kernels(patchKernels),
+          threads(std::move(frameThreads)),
+          startFrame(*data),
+          exactNormals(std::make_unique<ExactNormals>(*data)) {
         StartProgram const& start = data->start;
         startNormals.resize(index(start.numNormals), LocalPoint{{0, 0, 0, 0}});
         if (start.limitTable) limitStart = std::make_unique<Impl>(start.limitTable, kernels, threads);
@@ -162,7 +168,7 @@ struct ShadingEvaluator::Impl {
     void evaluateSplit(TileClass const& tileClass, Place const& place, Visit& visit);
     void evaluateDense(TileClass const& tileClass, Place const& place, LeafSources const& sources, Visit& visit);
     void evaluateSpline(TileClass const& tileClass, Place const& place, LeafSources const& sources, Visit& visit);
-    void finishLeaf(TileClass const& tileClass, int numPoints, float smallest1, float smallest2, Place const& place,
+    void finishLeaf(TileClass const& tileClass, int numPoints, float doubt1, float doubt2, Place const& place,
                     bool hasTangents, Visit& visit);
     void settle(LeafFrame& leaf, TileClass const& tileClass, Place const& place, int firstValue, Visit& visit);
     LeafBlend blendOfLeaf(Visit const& visit) const { return visit.leafBlend ? *visit.leafBlend : visit.blend; }
@@ -175,8 +181,7 @@ struct ShadingEvaluator::Impl {
     std::vector<LocalPoint> startNormals, smoothed;
     std::vector<int> chunkTiles;
     std::vector<Worker> workers;
-    std::mutex exactMutex;
-    std::unique_ptr<ExactNormals> exactNormals;  // made when it is first needed
+    std::unique_ptr<ExactNormals> exactNormals;
 
     // Of the frame.
     std::array<PointSpan, kNumVectors> vectors;
@@ -379,7 +384,7 @@ void ShadingEvaluator::Impl::evaluateDense(TileClass const& c, Place const& plac
         for (int i = 1; i < matrix.numColumns; ++i) {
             reach = LargerOf(reach, place.points[sources.points[i]] - first);
         }
-        size = LengthBound(reach) * kShortTangent;
+        size = LengthBound(reach) * kDenseDoubt;
     }
     finishLeaf(c, c.numPoints, c.tangentSums[0] * size, c.tangentSums[1] * size, place, hasTangents, visit);
 }
@@ -400,7 +405,7 @@ void ShadingEvaluator::Impl::evaluateSpline(TileClass const& c, Place const& pla
             reachV = LargerOf(reachV, at(j + 1, i) - at(j, i));
         }
     }
-    float const smallestU = LengthBound(reachU) * kShortTangent, smallestV = LengthBound(reachV) * kShortTangent;
+    float const doubtU = LengthBound(reachU) * kSplineDoubt, doubtV = LengthBound(reachV) * kSplineDoubt;
 
     // Window by window.
     bool const isRefined = !dictionary.bases.positions.empty();
@@ -440,11 +445,11 @@ void ShadingEvaluator::Impl::evaluateSpline(TileClass const& c, Place const& pla
                 kernels->evaluateSpline(u, v, plan, place.normals, indices, worker.subdivided);
             }
         }
-        finishLeaf(c, plan.numPoints, smallestU, smallestV, place, hasTangents, visit);
+        finishLeaf(c, plan.numPoints, doubtU, doubtV, place, hasTangents, visit);
     }
 }
 
-void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoints, float smallest1, float smallest2,
+void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoints, float doubt1, float doubt2,
                                         Place const& place, bool hasTangents, Visit& visit) {
     Worker& worker = *visit.worker;
     LeafBlend const blend = blendOfLeaf(visit);
@@ -468,8 +473,8 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
         turn(worker.tangent1.y, worker.tangent2.y);
         turn(worker.tangent1.z, worker.tangent2.z);
         float const scale = std::max(std::fabs(f.a) + std::fabs(f.b), std::fabs(f.c) + std::fabs(f.d)) / 2;
-        smallest1 *= scale;
-        smallest2 *= scale;
+        doubt1 *= scale;
+        doubt2 *= scale;
     }
 
     LeafFrame leaf{};
@@ -480,8 +485,8 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
         leaf.tangent1 = worker.tangent1;
         leaf.tangent2 = worker.tangent2;
     }
-    leaf.smallest1 = smallest1;
-    leaf.smallest2 = smallest2;
+    leaf.doubt1 = doubt1;
+    leaf.doubt2 = doubt2;
     if (visit.hasNormals && blend != LeafBlend::Zero) leaf.subdivided = worker.subdivided;
     if (blend == LeafBlend::Mixed) leaf.blend = data->blendPowers.data() + weight;
     LeafFrame::Output* const targets[kNumVectors] = {&leaf.positions,    &leaf.blendedNormals,
@@ -560,22 +565,12 @@ void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass,
         target[1] = v.y;
         target[2] = v.z;
     };
-    std::vector<GridPoint> points;
     for (int i = 0; i < leaf.numDoubtful; ++i) {
         std::size_t const point = leaf.doubtful[i];
         Vec3<double> exact;
         bool const isAverage = findAverage(tileClass.averages, static_cast<int>(point), place.points, exact);
         if (!isAverage) {
-            Tile const& tile = data->tiles[index(visit.tile)];
-            if (points.empty()) points = FindTilePoints(data->dictionary, tile);
-            ExactNormals const* finder;
-            {
-                std::lock_guard<std::mutex> const lock(exactMutex);
-                if (!exactNormals) exactNormals = std::make_unique<ExactNormals>(*data);
-                finder = exactNormals.get();
-            }
-            exact =
-                finder->Find(visit.tile, points[index(firstValue - tile.firstValue) + point], visit.controlPoints);
+            exact = exactNormals->Find(visit.tile, firstValue + static_cast<int>(point), visit.controlPoints);
             ++visit.worker->numFallbacks;
         }
         Vec3<float> limit{static_cast<float>(exact.x), static_cast<float>(exact.y), static_cast<float>(exact.z)};

@@ -542,14 +542,14 @@ private:
 
     // Squares of lengths. A cross product whose square is smaller than kTiny loses digits to underflow; N_S of
     // length 1e-6 and sums of normals that are so short count as vanished.
-    static constexpr float kTiny = 1e-36F, kVanished = 1e-12F;
+    static constexpr float kTiny = 1e-36F, kHuge = 3e38F, kVanished = 1e-12F;
 
     template <Blend kBlend>
     static void finishNormals(LeafFrame& frame) {
         int const numPoints = frame.numPoints;
         unsigned const all = numPoints < kLanes ? (1U << numPoints) - 1 : (1U << (kLanes - 1)) * 2 - 1;
-        V const smallest1 = V::Set(frame.smallest1 * frame.smallest1);
-        V const smallest2 = V::Set(frame.smallest2 * frame.smallest2);
+        V const doubt1 = V::Set(frame.doubt1 * frame.doubt1);
+        V const doubt2 = V::Set(frame.doubt2 * frame.doubt2);
         V const one = V::Set(1), tiny = V::Set(kTiny), vanished = V::Set(kVanished);
         float const* blend = frame.blend;
         alignas(64) float fewBlends[kLanes];
@@ -565,10 +565,10 @@ private:
                 V3 const a = load(frame.tangent1, first), b = load(frame.tangent2, first);
                 n = {MulSub(a.y, b.z, a.z * b.y), MulSub(a.z, b.x, a.x * b.z), MulSub(a.x, b.y, a.y * b.x)};
                 n2 = squaredLength(n);
-                // Infinite n2 and NaN by overflow of n come with an infinite product of squares, and are doubtful.
+                // An infinite n2, and NaN by overflow of n, are doubtful.
                 V const a2 = squaredLength(a), b2 = squaredLength(b);
-                auto const good = And(Greater(n2 * V::Set(1024), Max(a2 * b2, V::Set(1024 * kTiny))),
-                                      And(NotLess(a2, smallest1), NotLess(b2, smallest2)));
+                auto const good =
+                    And(Greater(n2, Max(tiny, Max(a2 * doubt2, b2 * doubt1))), Greater(V::Set(kHuge), n2));
                 unsigned const doubtful = ~Bits(good) & all;
                 if (doubtful != 0) addDoubtful(frame, first, doubtful & Bits(NotLess(a2 + b2, a2 + b2)));
                 n2 = Max(tiny, n2);
