@@ -67,8 +67,8 @@ FlatRows compose(FlatRows const& rows, FlatRows const& elements, std::size_t num
         sum.MoveTo(composed);
         if (!hasTangents || row % 3 == 0) continue;
         auto const begin = composed.weights.begin() + static_cast<std::ptrdiff_t>(first);
-        bool const isNoise = std::all_of(begin, composed.weights.end(),
-                                         [&](double w) { return std::fabs(w) < kNoise * size; });
+        bool const isNoise =
+            std::all_of(begin, composed.weights.end(), [&](double w) { return std::fabs(w) < kNoise * size; });
         if (isNoise) std::fill(begin, composed.weights.end(), 0.0);
     }
     return composed;
@@ -187,8 +187,7 @@ MadeClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
             addFrameRow();
             LimitFrame<double> const& frame = tangents.Find(row, column);
             if (frame.isAverage || isAverageOnly) {
-                made.averages.normals.push_back(
-                    {made.numPoints, static_cast<int>(made.averages.faces.size())});
+                made.averages.normals.push_back({made.numPoints, static_cast<int>(made.averages.faces.size())});
                 for (std::size_t i = 0; i < frame.fan.faces.size(); ++i) {
                     Far::ConstIndexArray const vertices = last.GetFaceVertices(frame.fan.faces[i]);
                     AverageFace averaged;

@@ -18,7 +18,8 @@ enum class ElementKind { Vertex, Value };
 
 /// The elements of a level that are needed, each as a sum.
 struct NeededLevel {
-    std::vector<int> elements;  ///< of the level; rows name those of the level before, and earlier ones of their own
+    std::vector<int>
+        elements;  ///< of the level; rows name those of the level before, and earlier ones of their own
     std::vector<int> vertices;  ///< of each
     std::vector<std::size_t> offsets{0};
     std::vector<int> terms;  ///< index among the needed of the level before; < 0: complement of one of this level

@@ -138,8 +138,7 @@ MadeClass TileCompiler::makeSplit(RegionLevels& outer, int outerLevel, int outer
         made.pointRows = makeRows(needed.Level(level + 1), made.numSources);
         for (std::size_t i = 0; i < children.size(); ++i) {
             for (int const v : children[i].vertices) {
-                made.children[i].pointIndices.push_back(
-                    LocalIndex(made.numSources + needed.IndexOf(level + 1, v)));
+                made.children[i].pointIndices.push_back(LocalIndex(made.numSources + needed.IndexOf(level + 1, v)));
             }
         }
     }
@@ -147,6 +146,7 @@ MadeClass TileCompiler::makeSplit(RegionLevels& outer, int outerLevel, int outer
 
     // Their normals: sources themselves where they start further down, refined by region where they have started.
     int const normalLevel = level + std::max(1, q);
+    result.field.children.resize(children.size());
     std::vector<std::pair<int, int>> wanted;
     std::vector<FaceCorner> corners;
     std::vector<int>& slots = levels.Slots(normalLevel);
@@ -166,8 +166,9 @@ MadeClass TileCompiler::makeSplit(RegionLevels& outer, int outerLevel, int outer
         }
         for (std::size_t i = 0; i < children.size(); ++i) {
             for (FaceCorner const& at : children[i].normals) {
-                made.children[i].normalIndices.push_back(
-                    LocalIndex(slots[index(levels.ValueAt(normalLevel, at))]));
+                int const source = slots[index(levels.ValueAt(normalLevel, at))];
+                made.children[i].normalIndices.push_back(LocalIndex(source));
+                result.field.children[i].push_back(source);
             }
         }
         for (auto const& [value, vertex] : wanted) slots[index(value)] = -1;
@@ -184,8 +185,9 @@ MadeClass TileCompiler::makeSplit(RegionLevels& outer, int outerLevel, int outer
     made.normalRows = makeRows(needed.Level(level + 1), made.numNormalSources);
     for (std::size_t i = 0; i < children.size(); ++i) {
         for (FaceCorner const& at : children[i].normals) {
-            made.children[i].normalIndices.push_back(LocalIndex(
-                made.numNormalSources + needed.IndexOf(level + 1, levels.ValueAt(level + 1, at))));
+            int const value = needed.IndexOf(level + 1, levels.ValueAt(level + 1, at));
+            made.children[i].normalIndices.push_back(LocalIndex(made.numNormalSources + value));
+            result.field.children[i].push_back(value);
         }
     }
     if (_contents.needsFields) result.field.stages.push_back(MakeFieldStage(levels, needed, level + 1));

@@ -85,8 +85,7 @@ void TangentRows::orient(int row, int column, LimitFrame<double>& frame) const {
     };
     std::size_t term = 1;
     for (int j = 0; _isCatmark && j < numFaces; ++j, ++term) {
-        measure(term, std::cos(step * j) + std::cos(step * (j + 1)),
-                std::sin(step * j) + std::sin(step * (j + 1)));
+        measure(term, std::cos(step * j) + std::cos(step * (j + 1)), std::sin(step * j) + std::sin(step * (j + 1)));
     }
     for (int j = 0; j < numEdges; ++j, ++term) measure(term, std::cos(step * j), std::sin(step * j));
     constexpr double kTiny = 1e-9;

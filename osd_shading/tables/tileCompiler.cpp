@@ -25,11 +25,10 @@ std::size_t TileDictionary::NumBytes() const {
     std::size_t bytes =
         bytesOf(classes) + bytesOf(matrices) + bytesOf(weights) + bytesOf(plans) + bytesOf(segments);
     for (TileClass const& c : classes) {
-        bytes += bytesOfRows(c.pointRows) + bytesOfRows(c.normalRows) +
-                 bytesOf(c.pointIndices) + bytesOf(c.normalIndices) + bytesOf(c.plans) + bytesOf(c.gridPoints) +
-                 bytesOf(c.children) + bytesOf(c.averages.normals) +
-                 bytesOf(c.averages.faces) + bytesOf(c.averages.offsets) + bytesOf(c.averages.sources) +
-                 bytesOf(c.averages.weights);
+        bytes += bytesOfRows(c.pointRows) + bytesOfRows(c.normalRows) + bytesOf(c.pointIndices) +
+                 bytesOf(c.normalIndices) + bytesOf(c.plans) + bytesOf(c.gridPoints) + bytesOf(c.children) +
+                 bytesOf(c.averages.normals) + bytesOf(c.averages.faces) + bytesOf(c.averages.offsets) +
+                 bytesOf(c.averages.sources) + bytesOf(c.averages.weights);
         for (ChildTile const& child : c.children)
             bytes += bytesOf(child.pointIndices) + bytesOf(child.normalIndices);
     }

@@ -37,8 +37,7 @@ FieldStage MakeFieldStage(RegionLevels& levels, NeededRows const& values, int le
             int const size = parent.GetFaceVertices(parentFace).size();
             if (isCatmark && size != regularSize) stage.isNearNgon[i] = 1;
             if (corner >= size) continue;
-            int const seed =
-                values.IndexOf(levelIndex - 1, parentRegions.CornerValue(parentFace, corner));
+            int const seed = values.IndexOf(levelIndex - 1, parentRegions.CornerValue(parentFace, corner));
             if (seed < 0) continue;
             if (std::find(stage.seeds.begin() + static_cast<std::ptrdiff_t>(firstSeed), stage.seeds.end(), seed) ==
                 stage.seeds.end()) {
