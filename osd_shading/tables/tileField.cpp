@@ -22,6 +22,7 @@ FieldStage MakeFieldStage(RegionLevels& levels, NeededRows const& values, int le
     stage.terms = needed.terms;
     stage.weights = needed.weights;
     stage.isNearNgon.assign(needed.Size(), 0);
+    stage.isVertexNearNgon.assign(needed.Size(), 0);
     stage.origins.assign(needed.Size(), FieldStage::kNew);
     for (std::size_t i = 0; i < needed.Size(); ++i) {
         int const vertex = needed.vertices[i];
@@ -30,12 +31,16 @@ FieldStage MakeFieldStage(RegionLevels& levels, NeededRows const& values, int le
         Far::ConstIndexArray const faces = level.GetVertexFaces(vertex);
         Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(vertex);
         for (int j = 0; j < faces.size(); ++j) {
-            if (regions.CornerValue(faces[j], corners[j]) != needed.elements[i]) continue;
             // The face lies in a corner of its parent; in Loop one in the middle has no old vertex.
             int const parentFace = level.GetFaceParentFace(faces[j]);
-            int const corner = parent.GetFaceChildFaces(parentFace).FindIndex(faces[j]);
             int const size = parent.GetFaceVertices(parentFace).size();
-            if (isCatmark && size != regularSize) stage.isNearNgon[i] = 1;
+            bool const isInRegion = regions.CornerValue(faces[j], corners[j]) == needed.elements[i];
+            if (isCatmark && size != regularSize) {
+                stage.isVertexNearNgon[i] = 1;
+                if (isInRegion) stage.isNearNgon[i] = 1;
+            }
+            if (!isInRegion) continue;
+            int const corner = parent.GetFaceChildFaces(parentFace).FindIndex(faces[j]);
             if (corner >= size) continue;
             int const seed = values.IndexOf(levelIndex - 1, parentRegions.CornerValue(parentFace, corner));
             if (seed < 0) continue;

@@ -22,7 +22,8 @@ struct FieldStage {
     /// Per value: those of the level before whose vertices have this value's vertex in their ring, and itself.
     std::vector<std::size_t> seedOffsets{0};
     std::vector<int> seeds;
-    std::vector<unsigned char> isNearNgon;  ///< the middle of a face that is no quad has it in its ring
+    /// Whether the middle of a face that is no quad has its vertex in its ring, and whether it has its region.
+    std::vector<unsigned char> isVertexNearNgon, isNearNgon;
     std::vector<VertexKind> kinds;          ///< of its vertex
     static constexpr int kNew = -1, kNgonCenter = -2;
     std::vector<int> origins;  ///< the value of the level before whose vertex became this one's; or one of those

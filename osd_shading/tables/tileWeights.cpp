@@ -232,6 +232,7 @@ void TileWeights::Append(int tileClass, int level, WeightSources const& sources,
 
 WeightSources TileWeights::refine(FieldStage const& stage, int level, WeightSources const& sources) const {
     bool const skipsSharp = _options.sharpVertices == SharpVertexWeight::Zero, isSeeding = level >= _options.level;
+    bool const isPerRegion = _options.sharpVertices == SharpVertexWeight::PerRegion;
     WeightSources refined;
     refined.weights.resize(stage.Size());
     refined.seeds.resize(stage.Size());
@@ -251,7 +252,7 @@ WeightSources TileWeights::refine(FieldStage const& stage, int level, WeightSour
                            : origin == FieldStage::kNgonCenter ? kAllLevels
                                                                : 0;
         if (!isSeeding || (skipsSharp && CountsAsSharp(_options, stage.kinds[i]))) continue;
-        bool isSeeded = stage.isNearNgon[i] != 0;
+        bool isSeeded = (isPerRegion ? stage.isNearNgon[i] : stage.isVertexNearNgon[i]) != 0;
         for (std::size_t s = stage.seedOffsets[i]; s < stage.seedOffsets[i + 1]; ++s) {
             isSeeded |= ((sources.seeds[index(stage.seeds[s])] >> level) & 1u) != 0;
         }
