@@ -29,7 +29,7 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 constexpr int kChunkPoints = 8192;
 
 /// A tangent so much shorter than what it is summed from has lost too many digits.
-constexpr float kShortTangent = 1.0f / 128;
+constexpr float kShortTangent = 1.0f / 64;
 
 void checkSpan(char const* name, float const* data, std::size_t count, std::size_t stride, std::size_t width,
                std::size_t wanted) {
@@ -298,9 +298,7 @@ void ShadingEvaluator::Impl::evaluateClass(int classIndex, Place const& place, V
             inner.points = place.free;
             // Relative to their own middle again; its origin is a float, what that leaves over goes to the points.
             LocalPoint sum{{0, 0, 0, 0}};
-            for (auto const j : child.pointIndices) {
-                for (int axis = 0; axis < 3; ++axis) sum.v[axis] += place.points[j].v[axis];
-            }
+            for (auto const j : child.pointIndices) sum = sum + place.points[j];
             LocalPoint shift{{0, 0, 0, 0}};
             for (int axis = 0; axis < 3; ++axis) {
                 float const middle = sum.v[axis] / static_cast<float>(child.pointIndices.size());
@@ -309,8 +307,7 @@ void ShadingEvaluator::Impl::evaluateClass(int classIndex, Place const& place, V
                 shift.v[axis] = middle - static_cast<float>(exact - double{inner.origin[axis]});
             }
             for (std::size_t j = 0; j < child.pointIndices.size(); ++j) {
-                LocalPoint const& p = place.points[child.pointIndices[j]];
-                inner.points[j] = {{p.v[0] - shift.v[0], p.v[1] - shift.v[1], p.v[2] - shift.v[2], 0}};
+                inner.points[j] = place.points[child.pointIndices[j]] - shift;
             }
             inner.normals = inner.points + childClass.numSources + childClass.pointRows.NumRows();
             inner.free = inner.normals;

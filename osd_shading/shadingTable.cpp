@@ -125,14 +125,12 @@ private:
             }
             // An n-gon's corner stands in one child only; a quad's is the end of the edge before too, the same
             // place.
-            int const owner = _data.edgeOwners[index(first + i)];
+            int const owner = _data.edgeTwins[index(first + i)];
             std::size_t const face = faceOf(owner);
             int const edge = owner - offsets[face];
-            bool const isSameWay =
-                _data.mesh.faceVertices[index(first + i)] == _data.mesh.faceVertices[index(owner)];
             for (int step = 1; step < numSteps; ++step) {
                 int& value = onEdge(f, i, step);
-                if (value < 0) value = onEdge(face, edge, isSameWay ? step : numSteps - step);
+                if (value < 0) value = onEdge(face, edge, numSteps - step);
                 if (isNgon(f) && step == numSteps / 2) {
                     // The middle stands in two children.
                     int const side = static_cast<int>(pitch(f)) - 1;

@@ -586,7 +586,7 @@ TEST_P(PatchKernelsOf, ShortAndParallelTangentsAreDoubtful) {
     for (int const numPoints : kSizes) {
         Leaf leaf(numPoints, kNan);
         fillRandomly(leaf, random);
-        double const sine = 1 / 64.0;
+        double const sine = 1 / 32.0;
         std::vector<std::uint16_t> expected;
         for (int i = 0; i < numPoints; ++i) {
             bool isDoubtful = true;

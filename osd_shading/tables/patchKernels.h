@@ -23,6 +23,13 @@ struct alignas(16) LocalPoint {
     float v[4];
 };
 
+inline LocalPoint operator+(LocalPoint const& a, LocalPoint const& b) {
+    return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}};
+}
+inline LocalPoint operator-(LocalPoint const& a, LocalPoint const& b) {
+    return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}};
+}
+
 /// A field of three components at a leaf's points, in the order of the output. Each array holds kLeafCapacity
 /// floats and is aligned to 64 bytes; what lies past the points is undefined.
 struct FieldArrays {
@@ -113,7 +120,7 @@ struct PatchKernels {
     ///     N_B = normalize((1 - b) N_L + b N_S); N_L where b is 0 or where the sum vanishes (length <= 1e-6)
     ///
     /// subdividedNormals are 0 where b is 0. A point is doubtful when a tangent is shorter than its smallest, or
-    /// |t1 x t2| <= |t1| |t2| / 64, or where the squares of |t1| |t2| or of the cross product leave the range of
+    /// |t1 x t2| <= |t1| |t2| / 32, or where the squares of |t1| |t2| or of the cross product leave the range of
     /// floats (|t1 x t2| below 1e-18 is taken as that); NaN is not doubtful. Without tangents N_B is N_S (b is 1),
     /// and no point is doubtful. N_L and N_B of doubtful points are written all the same; never NaN where the
     /// tangents' cross product is zero. N_B is the same bits whatever else is written.

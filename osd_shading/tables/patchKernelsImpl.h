@@ -521,7 +521,7 @@ private:
                 n2 = squaredLength(n);
                 // Infinite n2 and NaN by overflow of n come with an infinite product of squares, and are doubtful.
                 V const a2 = squaredLength(a), b2 = squaredLength(b);
-                auto const good = And(Greater(n2 * V::Set(4096), Max(a2 * b2, V::Set(4096 * kTiny))),
+                auto const good = And(Greater(n2 * V::Set(1024), Max(a2 * b2, V::Set(1024 * kTiny))),
                                       And(NotLess(a2, smallest1), NotLess(b2, smallest2)));
                 unsigned const doubtful = ~Bits(good) & all;
                 if (doubtful != 0) addDoubtful(frame, first, doubtful & Bits(NotLess(a2 + b2, a2 + b2)));

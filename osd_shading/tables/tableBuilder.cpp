@@ -106,11 +106,13 @@ private:
 };
 
 /// Shares out the values at the control mesh's vertices and along its edges.
-void findOwners(RefinedTopology const& topology, LastSharpness const& last, TableData& data) {
+void findOwners(RefinedTopology const& topology, LastSharpness const& last, TableData& data,
+                std::vector<bool>& ownsMiddle) {
     Far::TopologyLevel const& base = topology.Level(0);
     std::vector<int> const& offsets = data.mesh.faceOffsets;
     data.cornerOwners.resize(data.mesh.faceVertices.size());
-    data.edgeOwners.resize(data.mesh.faceVertices.size());
+    data.edgeTwins.resize(data.mesh.faceVertices.size());
+    ownsMiddle.assign(data.mesh.faceVertices.size(), false);
 
     // One owner for each region, at the last level, of each vertex.
     std::vector<int> group;
@@ -150,55 +152,57 @@ void findOwners(RefinedTopology const& topology, LastSharpness const& last, Tabl
         for (int i = 0; i < numFaces; ++i) data.cornerOwners[index(cornerAt(i))] = cornerAt(group[index(i)]);
     }
 
-    // Edges: rather a regular face, then one to whose first corner the edge is next, then the first.
-    std::vector<unsigned char> isPlain(index(base.GetNumVertices()));
+    // Of an edge between two faces each writes the half at whose end the edge leaves a vertex in its own order:
+    // equal neighbourhoods then write equal points. The middle is the extraordinary end's, or the first face's.
     int const regular = topology.IsCatmark() ? 4 : 6;
-    for (int v = 0; v < base.GetNumVertices(); ++v) {
-        isPlain[index(v)] = base.GetVertexRule(v) == Sdc::Crease::RULE_SMOOTH && !base.IsVertexBoundary(v) &&
-                            base.GetVertexFaces(v).size() == regular;
-    }
-    auto const rank = [&](int face, int local) {
-        bool isRegular = true;
-        for (int const v : base.GetFaceVertices(face)) isRegular &= isPlain[index(v)] != 0;
-        return (isRegular ? 0 : 2) + (local == 0 || local == base.GetFaceVertices(face).size() - 1 ? 0 : 1);
+    auto const isPlain = [&](int v) {
+        return base.GetVertexRule(v) == Sdc::Crease::RULE_SMOOTH && !base.IsVertexBoundary(v) &&
+               base.GetVertexFaces(v).size() == regular;
     };
     for (int e = 0; e < base.GetNumEdges(); ++e) {
         Far::ConstIndexArray const faces = base.GetEdgeFaces(e);
-        int owner = -1, best = 0;
-        for (int const face : faces) {
-            int const local = base.GetFaceEdges(face).FindIndex(e), own = rank(face, local);
-            if (owner < 0 || own < best) {
-                owner = offsets[index(face)] + local;
-                best = own;
-            }
+        auto const cornerOf = [&](int face) { return offsets[index(face)] + base.GetFaceEdges(face).FindIndex(e); };
+        bool const isShared = faces.size() == 2;
+        for (int i = 0; i < faces.size(); ++i) {
+            data.edgeTwins[index(cornerOf(faces[i]))] = cornerOf(faces[isShared ? 1 - i : i]);
         }
-        for (int const face : faces) {
-            int const local = base.GetFaceEdges(face).FindIndex(e);
-            // Sharp all along: each side for itself.
-            std::vector<bool> const isSharp = last.Of(e, base.GetFaceVertices(face)[local]);
-            bool const isSharpAll = std::find(isSharp.begin(), isSharp.end(), false) == isSharp.end();
-            int const own = offsets[index(face)] + local;
-            data.edgeOwners[index(own)] = isSharpAll ? own : owner;
+        if (!isShared) continue;
+        // Each side of what is sharp all along writes for itself.
+        int const first = cornerOf(faces[0]), second = cornerOf(faces[1]);
+        int const start = data.mesh.faceVertices[index(first)];
+        std::vector<bool> const isSharp = last.Of(e, start);
+        if (std::find(isSharp.begin(), isSharp.end(), false) == isSharp.end()) {
+            data.edgeTwins[index(first)] = first;
+            data.edgeTwins[index(second)] = second;
+            continue;
         }
+        bool const isSecond = isPlain(start) && !isPlain(data.mesh.faceVertices[index(second)]);
+        (isSecond ? ownsMiddle[index(second)] : ownsMiddle[index(first)]) = true;
     }
 }
 
 TileOwnership ownershipOf(RefinedTopology const& topology, LastSharpness const& last, TableData const& data,
-                          int face) {
+                          std::vector<bool> const& ownsMiddle, int face) {
     Far::TopologyLevel const& base = topology.Level(0);
-    int const size = data.mesh.FaceSize(face), offset = data.mesh.faceOffsets[index(face)];
+    int const size = data.mesh.FaceSize(face), offset = data.mesh.faceOffsets[index(face)], k = data.options.level;
     TileOwnership own(index(size));
     for (int i = 0; i < size; ++i) {
-        own.corners[index(i)] = data.cornerOwners[index(offset + i)] == offset + i;
-        if (data.edgeOwners[index(offset + i)] == offset + i) {
-            own.edges[index(i)] = EdgeOwnership::All();
+        int const corner = offset + i;
+        own.corners[index(i)] = data.cornerOwners[index(corner)] == corner;
+        EdgeOwnership& edge = own.edges[index(i)];
+        if (data.edgeTwins[index(corner)] == corner) {
+            edge = EdgeOwnership::All();
             continue;
         }
-        // Another face's: but points between two sharp children have a value on this side too.
+        edge = ownsMiddle[index(corner)] ? EdgeOwnership::HalfAndMiddle() : EdgeOwnership::Half();
+        // Where children of an edge differ, points between two sharp ones have a value on this side too.
         std::vector<bool> const isSharp = last.Of(base.GetFaceEdges(face)[i], base.GetFaceVertices(face)[i]);
+        if (isSharp.size() == 1) continue;
         std::vector<bool> points;
-        for (std::size_t j = 1; j < isSharp.size(); ++j) points.push_back(isSharp[j - 1] && isSharp[j]);
-        own.edges[index(i)] = EdgeOwnership::Of(std::move(points));
+        for (std::size_t j = 1; j < isSharp.size(); ++j) {
+            points.push_back((isSharp[j - 1] && isSharp[j]) || edge.Has(static_cast<int>(j) - 1, k));
+        }
+        edge = EdgeOwnership::Of(std::move(points));
     }
     return own;
 }
@@ -453,7 +457,7 @@ std::size_t bytesOfData(TableData const& data) {
            bytesOf(data.mesh.cornerSharpness) + bytesOf(data.mesh.holes) + bytesOf(data.tiles) +
            bytesOf(data.vertices) + bytesOf(data.normals) + bytesOf(data.patterns) + bytesOf(data.leafBlends) +
            bytesOf(data.blendPowers) + bytesOf(data.blendWeights) + bytesOf(data.cornerOwners) +
-           bytesOf(data.edgeOwners) + bytesOf(data.orderOfValues) + bytesOf(start.valueOffsets) +
+           bytesOf(data.edgeTwins) + bytesOf(data.orderOfValues) + bytesOf(start.valueOffsets) +
            bytesOf(start.valueFaces) + bytesOf(start.valueCorners) + bytesOf(start.pointOffsets) +
            bytesOf(start.pointSources) + bytesOf(start.pointWeights) + bytesOf(start.faceOffsets) +
            bytesOf(start.facePoints) + bytesOf(start.smoothed) + bytesOf(start.smoothOffsets) +
@@ -487,7 +491,8 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
     RegionLevels levels(topology), allLevels(all);
 
     LastSharpness const last(all, lastLevel);
-    findOwners(topology, last, data);
+    std::vector<bool> ownsMiddle;
+    findOwners(topology, last, data, ownsMiddle);
 
     // Tiles and their classes.
     TileCompiler compiler({data.mesh.rules, options.limits.positions, options.limits.normals,
@@ -496,7 +501,7 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
     tiles.reserve(index(base.GetNumFaces()));
     for (int f = 0; f < base.GetNumFaces(); ++f) {
         tiles.push_back(compiler.Compile(levels, 0, f, lastLevel, hasSubdividedNormals ? normalLevel : 0,
-                                         ownershipOf(topology, last, data, f)));
+                                         ownershipOf(topology, last, data, ownsMiddle, f)));
     }
     data.dictionary = compiler.Take();
 

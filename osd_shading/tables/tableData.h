@@ -86,8 +86,10 @@ struct TableData {
     std::vector<float> blendPowers;   ///< b^p
     std::vector<float> blendWeights;  ///< b; empty where p is 1
     StartProgram start;
-    std::vector<int> cornerOwners;   ///< by control face corner: the face corner that writes its value
-    std::vector<int> edgeOwners;     ///< by control face corner, for the edge that follows it: likewise
+    std::vector<int> cornerOwners;  ///< by control face corner: the face corner that writes its value
+    /// By control face corner: that of the edge after it in the other face, which writes what this one does not;
+    /// itself where there is none.
+    std::vector<int> edgeTwins;
     std::vector<int> orderOfValues;  ///< ValueOrder::OpenSubdiv: where each value goes
     int numValues = 0, numFaces = 0;
     std::size_t numLocalPoints = 0;  ///< the most that a tile and those inside it hold at one time

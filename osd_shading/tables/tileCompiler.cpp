@@ -21,7 +21,7 @@ namespace {
 using Row = std::vector<std::pair<int, double>>;
 
 /// The largest k of an irregular tile that is a matrix: larger ones split.
-constexpr int kLargestDense = 2;
+constexpr int kLargestDense = 3;
 /// The same of a regular triangle, whose matrix all share.
 constexpr int kLargestDenseTriangle = 4;
 /// The same where small tiles can't be made from meshes of their own: what a leaf holds.

@@ -16,12 +16,30 @@ EdgeOwnership EdgeOwnership::Of(std::vector<bool> points) {
     return EdgeOwnership(Kind::Some, std::move(points));
 }
 
+bool EdgeOwnership::Has(int point, int k) const {
+    switch (_kind) {
+        case Kind::None:
+            return false;
+        case Kind::All:
+            return true;
+        case Kind::Half:
+            return 2 * (point + 1) < 1 << k;
+        case Kind::HalfAndMiddle:
+            return 2 * (point + 1) <= 1 << k;
+        case Kind::Some:
+            break;
+    }
+    return _points[static_cast<std::size_t>(point)];
+}
+
 EdgeOwnership EdgeOwnership::FirstHalf() const {
+    if (_kind == Kind::Half || _kind == Kind::HalfAndMiddle) return All();
     if (_kind != Kind::Some) return *this;
     return Of({_points.begin(), _points.begin() + static_cast<std::ptrdiff_t>(_points.size() / 2)});
 }
 
 EdgeOwnership EdgeOwnership::SecondHalf() const {
+    if (_kind == Kind::Half || _kind == Kind::HalfAndMiddle) return None();
     if (_kind != Kind::Some) return *this;
     return Of({_points.begin() + static_cast<std::ptrdiff_t>(_points.size() / 2 + 1), _points.end()});
 }
@@ -80,19 +98,19 @@ bool TileOwnership::Has(int row, int column, int k, bool isCatmark) const {
         if (isLowRow && isHigh) return corners[1];
         if (isHighRow && isHigh) return corners[2];
         if (isHighRow && isLow) return corners[3];
-        if (isLowRow) return edges[0].Has(static_cast<std::size_t>(column - 1));
-        if (isHigh) return edges[1].Has(static_cast<std::size_t>(row - 1));
-        if (isHighRow) return edges[2].Has(static_cast<std::size_t>(side - column - 1));
-        if (isLow) return edges[3].Has(static_cast<std::size_t>(side - row - 1));
+        if (isLowRow) return edges[0].Has(column - 1, k);
+        if (isHigh) return edges[1].Has(row - 1, k);
+        if (isHighRow) return edges[2].Has(side - column - 1, k);
+        if (isLow) return edges[3].Has(side - row - 1, k);
         return true;
     }
     assert(row + column <= side);
     if (row == 0 && column == 0) return corners[0];
     if (column == side) return corners[1];
     if (row == side) return corners[2];
-    if (row == 0) return edges[0].Has(static_cast<std::size_t>(column - 1));
-    if (row + column == side) return edges[1].Has(static_cast<std::size_t>(row - 1));
-    if (column == 0) return edges[2].Has(static_cast<std::size_t>(side - row - 1));
+    if (row == 0) return edges[0].Has(column - 1, k);
+    if (row + column == side) return edges[1].Has(row - 1, k);
+    if (column == 0) return edges[2].Has(side - row - 1, k);
     return true;
 }
 

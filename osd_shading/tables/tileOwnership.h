@@ -3,8 +3,8 @@
 
 // Internal: not installed, not for users.
 
-#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace osd_shading {
@@ -15,22 +15,26 @@ namespace tables {
 class EdgeOwnership {
 public:
     EdgeOwnership() = default;
-    static EdgeOwnership All() { return EdgeOwnership(Kind::All, {}); }
     static EdgeOwnership None() { return {}; }
+    static EdgeOwnership All() { return EdgeOwnership(Kind::All, {}); }
+    /// The points before the middle.
+    static EdgeOwnership Half() { return EdgeOwnership(Kind::Half, {}); }
+    static EdgeOwnership HalfAndMiddle() { return EdgeOwnership(Kind::HalfAndMiddle, {}); }
+    /// One flag for each point.
     static EdgeOwnership Of(std::vector<bool> points);
 
-    bool Has(std::size_t point) const { return _kind == Kind::All || (_kind == Kind::Some && _points[point]); }
-    bool IsNone() const { return _kind == Kind::None; }
+    /// `k` is that of the edge.
+    bool Has(int point, int k) const;
 
-    /// The halves of the edge, and the point between them; `k` is that of the whole edge.
+    /// The halves of the edge, and the point between them; k is 1 or more.
     EdgeOwnership FirstHalf() const;
     EdgeOwnership SecondHalf() const;
-    bool HasMiddle(int k) const { return Has((std::size_t{1} << (k - 1)) - 1); }
+    bool HasMiddle(int k) const { return Has((1 << (k - 1)) - 1, k); }
 
     void AppendKey(std::vector<std::int32_t>& key) const;
 
 private:
-    enum class Kind : std::int32_t { None, All, Some };
+    enum class Kind : std::int32_t { None, All, Half, HalfAndMiddle, Some };
     EdgeOwnership(Kind kind, std::vector<bool> points) : _kind(kind), _points(std::move(points)) {}
 
     Kind _kind = Kind::None;
