@@ -14,45 +14,46 @@ template <typename Real>
 struct CornerSides {
     Vec3<Real> after, before;
 
-    CornerSides(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face, int corner) {
-        Far::ConstIndexArray const vertices = level.GetFaceVertices(face);
+    CornerSides(std::vector<Vec3<Real>> const& points, PolygonCorner const& at) {
+        Far::ConstIndexArray const& vertices = at.vertices;
         int const size = vertices.size();
-        Vec3<Real> const p = points[static_cast<std::size_t>(vertices[corner])];
-        after = points[static_cast<std::size_t>(vertices[(corner + 1) % size])] - p;
-        before = points[static_cast<std::size_t>(vertices[(corner + size - 1) % size])] - p;
+        Vec3<Real> const p = points[static_cast<std::size_t>(vertices[at.corner])];
+        after = points[static_cast<std::size_t>(vertices[(at.corner + 1) % size])] - p;
+        before = points[static_cast<std::size_t>(vertices[(at.corner + size - 1) % size])] - p;
     }
 };
 
-/// What each face round a vertex counts, up to a factor that they share.
+}  // namespace
+
 template <typename Real>
-void weighFaces(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int vertex,
-                FaceWeight weight, std::vector<Real>& weights) {
-    Far::ConstIndexArray const faces = level.GetVertexFaces(vertex);
-    Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(vertex);
-    weights.assign(static_cast<std::size_t>(faces.size()), Real(1));
+void WeighCorners(std::vector<Vec3<Real>> const& points, FaceWeight weight,
+                  std::vector<PolygonCorner> const& corners, std::vector<Real>& weights) {
+    weights.assign(corners.size(), Real(1));
     if (weight == FaceWeight::Uniform) return;
     // Areas are taken at the size of the longest side: those of tiny or huge faces leave the range of numbers.
     Real longest = 0;
-    for (int i = 0; i < faces.size() && weight == FaceWeight::CornerArea; ++i) {
-        CornerSides<Real> const sides(level, points, faces[i], corners[i]);
+    for (std::size_t i = 0; i < corners.size() && weight == FaceWeight::CornerArea; ++i) {
+        CornerSides<Real> const sides(points, corners[i]);
         longest = std::fmax(longest, std::fmax(Length(sides.after), Length(sides.before)));
     }
     auto const scaled = [](Vec3<Real> const& a, Real size) {
         return size > 0 ? Vec3<Real>{a.x / size, a.y / size, a.z / size} : a;
     };
-    for (int i = 0; i < faces.size(); ++i) {
-        CornerSides<Real> const sides(level, points, faces[i], corners[i]);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        CornerSides<Real> const sides(points, corners[i]);
         Vec3<Real> const after = weight == FaceWeight::CornerArea ? scaled(sides.after, longest) : sides.after;
         Vec3<Real> const before = weight == FaceWeight::CornerArea ? scaled(sides.before, longest) : sides.before;
-        weights[static_cast<std::size_t>(i)] = CornerWeight(weight, after, before);
+        weights[i] = CornerWeight(weight, after, before);
     }
 }
 
-}  // namespace
-
 template <typename Real>
 Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face) {
-    Far::ConstIndexArray const vertices = level.GetFaceVertices(face);
+    return UnitFaceNormal(points, level.GetFaceVertices(face));
+}
+
+template <typename Real>
+Vec3<Real> UnitFaceNormal(std::vector<Vec3<Real>> const& points, Far::ConstIndexArray const& vertices) {
     return UnitPolygonNormal<Real>(vertices.size(),
                                    [&](int i) { return points[static_cast<std::size_t>(vertices[i])]; });
 }
@@ -60,9 +61,9 @@ Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real
 template <typename Real>
 Vec3<Real> AverageFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points,
                              RegionFan const& fan) {
-    VectorSum<Real> sum;
+    NormalSum<Real> sum;
     for (int const face : fan.faces) sum.Add(UnitFaceNormal(level, points, face), Real(1));
-    return sum.Normalized();
+    return sum.Unit();
 }
 
 template <typename Real>
@@ -77,31 +78,39 @@ std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const& level, Crea
     });
     std::vector<Vec3<Real>> normals(static_cast<std::size_t>(regions.NumValues()));
     ParallelFor(regions.NumVertices(), numThreads, [&](int begin, int end, int) {
-        std::vector<VectorSum<Real>> sums;
+        std::vector<NormalSum<Real>> sums;
+        std::vector<PolygonCorner> faceCorners;
         std::vector<Real> weights;
         for (int v = begin; v < end; ++v) {
             int const first = regions.FirstValue(v);
             sums.assign(static_cast<std::size_t>(regions.NumVertexValues(v)), {});
-            weighFaces(level, points, v, weight, weights);
             Far::ConstIndexArray const faces = level.GetVertexFaces(v);
             Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(v);
+            faceCorners.clear();
+            for (int i = 0; i < faces.size(); ++i) {
+                faceCorners.push_back({level.GetFaceVertices(faces[i]), corners[i]});
+            }
+            WeighCorners(points, weight, faceCorners, weights);
             for (int i = 0; i < faces.size(); ++i) {
                 sums[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]) - first)].Add(
                     faceNormals[static_cast<std::size_t>(faces[i])], weights[static_cast<std::size_t>(i)]);
             }
             for (std::size_t i = 0; i < sums.size(); ++i) {
-                normals[static_cast<std::size_t>(first) + i] = sums[i].Normalized();
+                normals[static_cast<std::size_t>(first) + i] = sums[i].Unit();
             }
         }
     });
     return normals;
 }
 
-#define OSD_SHADING_INSTANTIATE(Real)                                                                    \
-    template Vec3<Real> UnitFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&, int);  \
-    template Vec3<Real> AverageFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&,     \
-                                          RegionFan const&);                                             \
-    template std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const&, CreaseRegions const&, \
+#define OSD_SHADING_INSTANTIATE(Real)                                                                         \
+    template Vec3<Real> UnitFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&, int);       \
+    template Vec3<Real> UnitFaceNormal(std::vector<Vec3<Real>> const&, Far::ConstIndexArray const&);          \
+    template void WeighCorners(std::vector<Vec3<Real>> const&, FaceWeight, std::vector<PolygonCorner> const&, \
+                               std::vector<Real>&);                                                           \
+    template Vec3<Real> AverageFaceNormal(Far::TopologyLevel const&, std::vector<Vec3<Real>> const&,          \
+                                          RegionFan const&);                                                  \
+    template std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const&, CreaseRegions const&,      \
                                                         std::vector<Vec3<Real>> const&, FaceWeight, int);
 OSD_SHADING_INSTANTIATE(float)
 OSD_SHADING_INSTANTIATE(double)

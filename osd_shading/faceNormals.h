@@ -57,9 +57,28 @@ Vec3<Real> UnitPolygonNormal(int size, PointAt const& pointAt) {
     return NormalizedSum(area, added);
 }
 
-/// A sum of vectors and of the lengths that went into it.
+/// The unit normal of a face by its vector area (Newell); zero where it has none.
 template <typename Real>
-struct VectorSum {
+Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face);
+
+/// That of a face given by its vertices.
+template <typename Real>
+Vec3<Real> UnitFaceNormal(std::vector<Vec3<Real>> const& points, Far::ConstIndexArray const& vertices);
+
+/// A corner of a face given by its vertices.
+struct PolygonCorner {
+    Far::ConstIndexArray vertices;
+    int corner = 0;
+};
+
+/// What each of the corners at one vertex counts, up to a factor that they share.
+template <typename Real>
+void WeighCorners(std::vector<Vec3<Real>> const& points, FaceWeight weight,
+                  std::vector<PolygonCorner> const& corners, std::vector<Real>& weights);
+
+/// A sum of unit normals (or zeros, which do not count) and of their weights.
+template <typename Real>
+struct NormalSum {
     Vec3<Real> sum{};
     Real added = 0;
 
@@ -68,12 +87,8 @@ struct VectorSum {
         sum += weight * unit;
         added += weight;
     }
-    Vec3<Real> Normalized() const { return NormalizedSum(sum, added); }
+    Vec3<Real> Unit() const { return NormalizedSum(sum, added); }
 };
-
-/// The unit normal of a face by its vector area (Newell); zero where it has none.
-template <typename Real>
-Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face);
 
 /// The normalised sum of the unit normals of a region's faces; zero where it vanishes.
 template <typename Real>

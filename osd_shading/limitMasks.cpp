@@ -307,7 +307,7 @@ void LimitStep<Real>::AppendTerms(int vertex, int value, std::vector<std::pair<i
 }
 
 template <typename Real>
-void LimitStep<Real>::AppendPointTerms(int vertex, std::vector<std::pair<int, Real>>& terms) const {
+void LimitStep<Real>::AppendVertexTerms(int vertex, std::vector<std::pair<int, Real>>& terms) const {
     forEachVertexTerm(vertex, [&](int u, Real weight) { terms.emplace_back(u, weight); });
 }
 

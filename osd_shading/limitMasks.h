@@ -74,7 +74,7 @@ public:
     void AppendTerms(int vertex, int value, std::vector<std::pair<int, Real>>& terms) const;
 
     /// Appends the terms (vertex, weight) of the limit position of `vertex`.
-    void AppendPointTerms(int vertex, std::vector<std::pair<int, Real>>& terms) const;
+    void AppendVertexTerms(int vertex, std::vector<std::pair<int, Real>>& terms) const;
 
     /// The neighbours that the limit position of `vertex` is made of: the whole ring of a smooth vertex or dart,
     /// the far ends of its two sharp edges on a crease, none at a corner.

@@ -87,7 +87,7 @@ RefinedFaceVarying<Real> RefineFaceVaryingData(RefinedTopology const& topology, 
     RefinedFaceVarying<Real> refined;
     refined.width = control.width();
     refined.values = refine(
-        topology, control, positions == PositionKind::Limit,
+        topology, control, positions == PositionKind::Limit && HasFaceVaryingLimit(topology),
         [&](int level) { return topology.Level(level).GetNumFVarValues(channel); },
         [&](int level, auto const& source, auto& target) {
             refiner.InterpolateFaceVarying(level, source, target, channel);

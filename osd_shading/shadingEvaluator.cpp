@@ -492,7 +492,7 @@ bool findAverage(AverageNormals const& averages, int point, LocalPoint const* po
     };
     auto const last = found + 1 == averages.normals.end() ? averages.faces.end()
                                                           : averages.faces.begin() + (found + 1)->firstFace;
-    VectorSum<double> sum;
+    NormalSum<double> sum;
     for (auto face = averages.faces.begin() + found->firstFace; face != last; ++face) {
         Vec3<double> corners[4];
         for (int i = 0; i < face->size; ++i) corners[i] = pointOfRow(face->rows[i]);
@@ -501,7 +501,7 @@ bool findAverage(AverageNormals const& averages, int point, LocalPoint const* po
                                            corners[(face->corner + face->size - 1) % face->size] - p);
         sum.Add(UnitPolygonNormal<double>(face->size, [&](int i) { return corners[i]; }), weight);
     }
-    normal = sum.Normalized();
+    normal = sum.Unit();
     return true;
 }
 

@@ -25,7 +25,8 @@ struct ShadingInput {
     PointView<Real> faceVaryingNormals;  ///< one per face corner, in the order of the faces' vertices
 
     std::vector<PrimvarView<Real>> vertexData;           ///< refined as positions are
-    std::vector<FaceVaryingView<Real>> faceVaryingData;  ///< refined by OpenSubdiv's face-varying rules
+    std::vector<FaceVaryingView<Real>> faceVaryingData;  ///< refined by OpenSubdiv's face-varying rules;
+                                                         ///< at level 0 they stay as they are
 };
 
 }  // namespace v1

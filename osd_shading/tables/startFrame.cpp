@@ -102,7 +102,7 @@ std::int64_t StartFrame::Compute(PointView<float> controlPoints, PointView<float
     forChunks(threads, 0, program.numNormals, [&](int begin, int end) {
         std::int64_t zero = 0;
         for (int i = begin; i < end; ++i) {
-            VectorSum<double> sum;
+            NormalSum<double> sum;
             for (int c = program.valueOffsets[index(i)]; c < program.valueOffsets[index(i) + 1]; ++c) {
                 int const face = program.valueFaces[index(c)];
                 double own = 1;
@@ -114,7 +114,7 @@ std::int64_t StartFrame::Compute(PointView<float> controlPoints, PointView<float
                 }
                 sum.Add(_faceNormals[index(face)], own);
             }
-            Vec3<double> const normal = sum.Normalized();
+            Vec3<double> const normal = sum.Unit();
             zero += IsZero(normal);
             store(normal, normals[index(i)]);
         }

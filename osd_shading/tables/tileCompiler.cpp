@@ -859,7 +859,7 @@ TileClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
             int const v = VertexAt(last, at);
             Point point;
             if (_contents.positions == PositionKind::Limit) {
-                limit.AppendPointTerms(v, point.position);
+                limit.AppendVertexTerms(v, point.position);
             } else {
                 point.position = {{v, 1.0}};
             }
