@@ -105,6 +105,7 @@ private:
 }  // namespace
 
 void PrintCases(std::vector<CaseFigures> const& cases) {
+    if (cases.empty()) return;
     std::printf("\nOne thread, thread time, nanoseconds per vertex (OpenSubdiv) and per value (ours)\n");
     std::printf("%-22s %9s | %6s %6s %6s %6s %6s %8s | %6s %6s %6s %6s %6s | %6s %6s %8s | %5s %5s\n",
                 "mesh, level", "vertices", "OSD 3", "OSD 4", "OSD 3x", "twice", "bytes", "build ms", "shaded",
@@ -126,6 +127,7 @@ void PrintCases(std::vector<CaseFigures> const& cases) {
 }
 
 void PrintScaling(std::vector<ScalingFigures> const& series) {
+    if (series.empty()) return;
     std::printf("\nScaling, nanoseconds per value; bytes per value besides the outputs: largest resident size\n");
     std::printf("%11s %5s | %9s %7s %7s %9s | %7s %7s\n", "values", "level", "OSD", "P+N_L", "shaded", "2 threads",
                 "table", "bytes");

@@ -76,7 +76,8 @@ void measureWithTwoThreads(MovingMesh& mesh, ShadingTable const& table, FrameBuf
 std::optional<CaseFigures> MeasureCase(MovingMesh& mesh, int level, CaseEffort const& effort) {
     // OpenSubdiv's table twice while it is built, and its frame.
     constexpr double kBytesPerVertex = 2 * 300 + 100;
-    if (mesh.AboutVertices(level) * kBytesPerVertex > static_cast<double>(AvailableBytes())) return std::nullopt;
+    double const bytes = mesh.AboutVertices(level) * kBytesPerVertex;
+    if (bytes > 0.5 * static_cast<double>(AvailableBytes())) return std::nullopt;
 
     CaseFigures figures;
     figures.mesh = mesh.Model().name;

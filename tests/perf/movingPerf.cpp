@@ -30,7 +30,7 @@ namespace {
 
 struct Options {
     std::string extraModels = OSD_SHADING_EXTRA_MODELS;
-    std::string jsonFile, program;
+    std::string jsonFile, part, program;
     bool isQuick = false, isLarge = false;
 };
 
@@ -97,9 +97,7 @@ std::map<std::string, double> countInstructions(Options const& options) {
     return counted;
 }
 
-Measurements measure(Options const& options) {
-    Measurements measured;
-    // First, while this process is small: the resident sizes of child processes count.
+void measureScaling(Options const& options, Measurements& measured) {
     std::fprintf(stderr, "scaling ..\n");
     constexpr double kMillion = 1e6;
     double const mostValues = options.isQuick ? kMillion : options.isLarge ? 50 * kMillion : 12 * kMillion;
@@ -108,33 +106,42 @@ Measurements measure(Options const& options) {
                                                        : 3 * kMillion;
     measured.scalingSeries = ScalingSeries(mostValues, mostForOpenSubdiv);
     if (!options.isQuick) measured.scalingByLevel = ScalingByLevel();
+}
 
+void measureFrames(Options const& options, Measurements& measured) {
     std::vector<MovingMesh> quads = quadMeshes(options), triangles = triangleMeshes(options);
     CaseEffort effort;
     if (options.isQuick) effort.seconds = 0.6;
-    std::vector<int> const fine = options.isQuick ? std::vector<int>{4} : std::vector<int>{4, 5, 6};
-    std::vector<int> const all = options.isQuick ? std::vector<int>{3, 4} : std::vector<int>{2, 3, 4, 5, 6};
-    measureCases(quads, all, effort, measured);
-    measureCases(triangles, fine, effort, measured);
-
-    MovingMesh const random(WithRandomSharpness(RockerArm(), 1));
-    for (int const level : fine) {
-        osd_shading::ShadingTable const table(random.Mesh(), OptionsFor(FrameKind::Shaded, level));
-        measured.randomSharpness.push_back(table.Stats());
-    }
+    measureCases(quads, options.isQuick ? std::vector<int>{3, 4} : std::vector<int>{2, 3, 4, 5, 6}, effort,
+                 measured);
+    measureCases(triangles, options.isQuick ? std::vector<int>{4} : std::vector<int>{4, 5, 6}, effort, measured);
     for (MovingMesh const& mesh : quads) {
         measured.accuracy.emplace_back(mesh.Model().name, MeasureAccuracy(mesh, 4));
     }
-    if (!options.isQuick) measured.instructions = countInstructions(options);
+    MovingMesh const random(WithRandomSharpness(RockerArm(), 1));
+    for (int level = 4; level <= (options.isQuick ? 4 : 6); ++level) {
+        osd_shading::ShadingTable const table(random.Mesh(), OptionsFor(FrameKind::Shaded, level));
+        measured.randomSharpness.push_back(table.Stats());
+    }
+}
+
+Measurements measure(Options const& options) {
+    auto const isWanted = [&](char const* part) { return options.part.empty() || options.part == part; };
+    Measurements measured;
+    // First, while this process is small: the resident sizes of child processes count.
+    if (isWanted("scaling")) measureScaling(options, measured);
+    if (isWanted("frames")) measureFrames(options, measured);
+    if (isWanted("instructions") && !options.isQuick) measured.instructions = countInstructions(options);
     return measured;
 }
 
 char const kUsage[] =
-    "usage: osd_shading_moving_perf [EXTRA_MODELS] [--quick] [--large] [--json FILE]\n"
+    "usage: osd_shading_moving_perf [EXTRA_MODELS] [--quick] [--large] [--part PART] [--json FILE]\n"
     "       osd_shading_moving_perf --callgrind-body MESH KIND SET   (for instructions.sh)\n"
     "  EXTRA_MODELS  folder with zbk/spot.obj, hat.obj and robot.obj\n"
     "  --quick       less than a minute: levels 3 and 4 only, no scaling beyond a million, no instructions\n"
     "  --large       the scaling series up to 43 million values, OpenSubdiv's up to 11 million\n"
+    "  --part        one of scaling, frames, instructions\n"
     "  --json        everything that was measured, seconds per frame\n";
 
 std::optional<Options> parseOptions(std::vector<std::string> const& words) {
@@ -146,6 +153,11 @@ std::optional<Options> parseOptions(std::vector<std::string> const& words) {
             options.isLarge = true;
         } else if (words[i] == "--json" && i + 1 < words.size()) {
             options.jsonFile = words[++i];
+        } else if (words[i] == "--part" && i + 1 < words.size()) {
+            options.part = words[++i];
+            if (options.part != "scaling" && options.part != "frames" && options.part != "instructions") {
+                return std::nullopt;
+            }
         } else if (!words[i].empty() && words[i][0] != '-') {
             options.extraModels = words[i];
         } else {

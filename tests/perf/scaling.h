@@ -17,7 +17,8 @@ struct ScalingFigures {
     double otherBytes = 0;        ///< per value: largest resident size less the outputs and what was there before
 };
 
-/// Control meshes, tori with creases and extraordinary vertices of a fixed density, that grow to `mostValues` at level 4, OpenSubdiv up to `mostForOpenSubdiv`.
+/// Control meshes, tori with creases and extraordinary vertices of a fixed density, that grow to `mostValues` at
+/// level 4, OpenSubdiv up to `mostForOpenSubdiv`.
 std::vector<ScalingFigures> ScalingSeries(double mostValues, double mostForOpenSubdiv);
 
 /// Of that series the mesh of 2.7 million values at level 4, and the same at level 6: 43 million.
