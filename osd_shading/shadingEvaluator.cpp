@@ -260,16 +260,19 @@ void ShadingEvaluator::Impl::evaluateTile(int tileIndex, Visit& visit) {
     place.points = visit.worker->local.data();
     int const* const vertices = data->vertices.data() + tile.firstVertex;
     // Relative to their middle, so that a tile keeps its digits wherever it lies.
-    Vec3<float> sum{};
-    for (int i = 0; i < tileClass.numSources; ++i) sum += visit.controlPoints[index(vertices[i])];
-    Vec3<float> const origin = (1.0f / static_cast<float>(tileClass.numSources)) * sum;
+    float const* const control = visit.controlPoints.data();
+    std::size_t const stride = visit.controlPoints.stride();
+    LocalPoint sum{{0, 0, 0, 0}};
     for (int i = 0; i < tileClass.numSources; ++i) {
-        Vec3<float> const p = visit.controlPoints[index(vertices[i])];
-        place.points[i] = {{p.x - origin.x, p.y - origin.y, p.z - origin.z, 0}};
+        float const* const p = control + index(vertices[i]) * stride;
+        place.points[i] = {{p[0], p[1], p[2], 0}};
+        sum = sum + place.points[i];
     }
-    place.origin[0] = origin.x;
-    place.origin[1] = origin.y;
-    place.origin[2] = origin.z;
+    LocalPoint origin{{0, 0, 0, 0}};
+    for (int axis = 0; axis < 3; ++axis) {
+        origin.v[axis] = place.origin[axis] = sum.v[axis] / static_cast<float>(tileClass.numSources);
+    }
+    for (int i = 0; i < tileClass.numSources; ++i) place.points[i] = place.points[i] - origin;
     place.normals = place.points + tileClass.numSources + tileClass.pointRows.NumRows();
     place.free = place.normals;
     if (visit.hasNormals) {
