@@ -28,8 +28,10 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 /// Points that a thread takes at a time.
 constexpr int kChunkPoints = 8192;
 
-/// A tangent so much shorter than what it is summed from has lost too many digits.
-constexpr float kShortTangent = 1.0f / 64;
+/// A tangent that reaches less across the other, as a share of what it is summed from, has lost too many digits for
+/// a normal exact to 1e-5. A matrix sums some twenty products whose errors seldom add up; a spline's differences
+/// lose little.
+constexpr float kDenseDoubt = 1.0f / 256, kSplineDoubt = 1.0f / 64;
 
 void checkSpan(char const* name, float const* data, std::size_t count, std::size_t stride, std::size_t width,
                std::size_t wanted) {
@@ -107,9 +109,18 @@ struct ShadingEvaluator::Impl {
         Frame2 frame;
     };
 
+    /// What a leaf reads: control points and normals of a spline, the columns of a matrix.
+    struct LeafSources {
+        std::uint16_t const *points, *normals;
+    };
+
     Impl(std::shared_ptr<TableData const> tableData, PatchKernels const* patchKernels,
          std::shared_ptr<FrameThreads> frameThreads)
-        : data(std::move(tableData)), kernels(patchKernels), threads(std::move(frameThreads)), startFrame(*data) {
+        : data(std::move(tableData)),
+          kernels(patchKernels),
+          threads(std::move(frameThreads)),
+          startFrame(*data),
+          exactNormals(std::make_unique<ExactNormals>(*data)) {
         StartProgram const& start = data->start;
         startNormals.resize(index(start.numNormals), LocalPoint{{0, 0, 0, 0}});
         if (start.limitTable) limitStart = std::make_unique<Impl>(start.limitTable, kernels, threads);
@@ -154,7 +165,10 @@ struct ShadingEvaluator::Impl {
                          ShadingOutputs const& outputs);
     void evaluateTile(int tile, Visit& visit);
     void evaluateClass(int tileClass, Place const& place, Visit& visit);
-    void finishLeaf(TileClass const& tileClass, int numPoints, float smallest1, float smallest2, Place const& place,
+    void evaluateSplit(TileClass const& tileClass, Place const& place, Visit& visit);
+    void evaluateDense(TileClass const& tileClass, Place const& place, LeafSources const& sources, Visit& visit);
+    void evaluateSpline(TileClass const& tileClass, Place const& place, LeafSources const& sources, Visit& visit);
+    void finishLeaf(TileClass const& tileClass, int numPoints, float doubt1, float doubt2, Place const& place,
                     bool hasTangents, Visit& visit);
     void settle(LeafFrame& leaf, TileClass const& tileClass, Place const& place, int firstValue, Visit& visit);
     LeafBlend blendOfLeaf(Visit const& visit) const { return visit.leafBlend ? *visit.leafBlend : visit.blend; }
@@ -167,8 +181,7 @@ struct ShadingEvaluator::Impl {
     std::vector<LocalPoint> startNormals, smoothed;
     std::vector<int> chunkTiles;
     std::vector<Worker> workers;
-    std::mutex exactMutex;
-    std::unique_ptr<ExactNormals> exactNormals;  // made when it is first needed
+    std::unique_ptr<ExactNormals> exactNormals;
 
     // Of the frame.
     std::array<PointSpan, kNumVectors> vectors;
@@ -270,13 +283,6 @@ void ShadingEvaluator::Impl::evaluateTile(int tileIndex, Visit& visit) {
 
 void ShadingEvaluator::Impl::evaluateClass(int classIndex, Place const& place, Visit& visit) {
     TileClass const& c = data->dictionary.classes[index(classIndex)];
-    TileDictionary const& dictionary = data->dictionary;
-    Worker& worker = *visit.worker;
-    if (c.numPoints == 0) {
-        // Others write all of it.
-        if (visit.leafBlend) visit.leafBlend += c.numLeaves;
-        return;
-    }
     auto const applyRows = [&](LocalRows const& rows, LocalPoint* points, int numSources) {
         if (rows.NumRows() == 0) return;
         kernels->combine(rows.NumRows(), rows.offsets.data(), rows.sources.data(), rows.weights.data(), points,
@@ -284,123 +290,166 @@ void ShadingEvaluator::Impl::evaluateClass(int classIndex, Place const& place, V
     };
     applyRows(c.pointRows, place.points, c.numSources);
     if (visit.hasNormals) applyRows(c.normalRows, place.normals, c.numNormalSources);
-
-    if (c.kind == TileKind::Split) {
-        bool const isTriangle = c.size == 3 && !c.isNgon;
-        for (std::size_t i = 0; i < c.children.size(); ++i) {
-            ChildTile const& child = c.children[i];
-            TileClass const& childClass = dictionary.classes[index(child.tileClass)];
-            Place inner;
-            if (childClass.numPoints == 0) {
-                evaluateClass(child.tileClass, inner, visit);
-                continue;
-            }
-            inner.points = place.free;
-            // Relative to their own middle again; its origin is a float, what that leaves over goes to the points.
-            LocalPoint sum{{0, 0, 0, 0}};
-            for (auto const j : child.pointIndices) sum = sum + place.points[j];
-            LocalPoint shift{{0, 0, 0, 0}};
-            for (int axis = 0; axis < 3; ++axis) {
-                float const middle = sum.v[axis] / static_cast<float>(child.pointIndices.size());
-                double const exact = double{place.origin[axis]} + double{middle};
-                inner.origin[axis] = static_cast<float>(exact);
-                shift.v[axis] = middle - static_cast<float>(exact - double{inner.origin[axis]});
-            }
-            for (std::size_t j = 0; j < child.pointIndices.size(); ++j) {
-                inner.points[j] = place.points[child.pointIndices[j]] - shift;
-            }
-            inner.normals = inner.points + childClass.numSources + childClass.pointRows.NumRows();
-            inner.free = inner.normals;
-            if (visit.hasNormals) {
-                for (std::size_t j = 0; j < child.normalIndices.size(); ++j) {
-                    inner.normals[j] = place.normals[child.normalIndices[j]];
-                }
-                inner.free += childClass.numNormalSources + childClass.normalRows.NumRows();
-            }
-            if (needsTangents) {
-                inner.frame = frameOfRotation(child.rotation, isTriangle);
-                if (!c.isNgon) {
-                    float const scale = isTriangle && i == 3 ? -2.0f : 2.0f;
-                    inner.frame = place.frame * Frame2{scale, 0, 0, scale} * inner.frame;
-                }
-            }
-            evaluateClass(child.tileClass, inner, visit);
-        }
-        return;
+    LeafSources const sources{c.pointIndices.data(), c.normalIndices.data()};
+    switch (c.kind) {
+        case TileKind::Split:
+            evaluateSplit(c, place, visit);
+            break;
+        case TileKind::Dense:
+            evaluateDense(c, place, sources, visit);
+            break;
+        case TileKind::Spline:
+            evaluateSpline(c, place, sources, visit);
+            break;
     }
+}
 
-    if (c.kind == TileKind::Dense) {
-        LeafBlend const blend = blendOfLeaf(visit);
-        bool const hasTangents = needsLimits || (needsBlended && blend != LeafBlend::One);
-        DenseMatrix const& matrix = dictionary.matrices[index(c.frameMatrix)];
-        FieldArrays const fields[3] = {worker.position, worker.tangent1, worker.tangent2};
-        kernels->evaluateDense(matrix, place.points, c.pointIndices.data(), fields);
-        if (visit.hasNormals && blend != LeafBlend::Zero) {
-            kernels->evaluateDense(dictionary.matrices[index(c.normalMatrix)], place.normals,
-                                   c.normalIndices.data(), &worker.subdivided);
+void ShadingEvaluator::Impl::evaluateSplit(TileClass const& c, Place const& place, Visit& visit) {
+    bool const isTriangle = c.size == 3 && !c.isNgon;
+    for (std::size_t i = 0; i < c.children.size(); ++i) {
+        ChildTile const& child = c.children[i];
+        TileClass const& childClass = data->dictionary.classes[index(child.tileClass)];
+        if (childClass.numPoints == 0) {
+            // Others write all of it.
+            if (visit.leafBlend) visit.leafBlend += childClass.numLeaves;
+            continue;
         }
-        float largest = 0;
-        for (auto const i : c.pointIndices) {
-            float const* const p = place.points[i].v;
-            largest = std::max(largest, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        Place inner = place;
+        if (needsTangents) {
+            inner.frame = frameOfRotation(child.rotation, isTriangle);
+            if (!c.isNgon) {
+                float const scale = isTriangle && i == 3 ? -2.0f : 2.0f;
+                inner.frame = place.frame * Frame2{scale, 0, 0, scale} * inner.frame;
+            }
         }
-        float const size = std::sqrt(largest) * kShortTangent;
-        finishLeaf(c, c.numPoints, c.tangentSums[0] * size, c.tangentSums[1] * size, place, hasTangents, visit);
-        return;
+        if (child.isInPlace) {
+            LeafSources const sources{child.pointIndices.data(), child.normalIndices.data()};
+            if (childClass.kind == TileKind::Dense) {
+                evaluateDense(childClass, inner, sources, visit);
+            } else {
+                evaluateSpline(childClass, inner, sources, visit);
+            }
+            continue;
+        }
+
+        // Relative to their own middle again; its origin is a float, what that leaves over goes to the points.
+        inner.points = place.free;
+        LocalPoint sum{{0, 0, 0, 0}};
+        for (auto const j : child.pointIndices) sum = sum + place.points[j];
+        LocalPoint shift{{0, 0, 0, 0}};
+        for (int axis = 0; axis < 3; ++axis) {
+            float const middle = sum.v[axis] / static_cast<float>(child.pointIndices.size());
+            double const exact = double{place.origin[axis]} + double{middle};
+            inner.origin[axis] = static_cast<float>(exact);
+            shift.v[axis] = middle - static_cast<float>(exact - double{inner.origin[axis]});
+        }
+        for (std::size_t j = 0; j < child.pointIndices.size(); ++j) {
+            inner.points[j] = place.points[child.pointIndices[j]] - shift;
+        }
+        inner.normals = inner.points + childClass.numSources + childClass.pointRows.NumRows();
+        inner.free = inner.normals;
+        if (visit.hasNormals) {
+            for (std::size_t j = 0; j < child.normalIndices.size(); ++j) {
+                inner.normals[j] = place.normals[child.normalIndices[j]];
+            }
+            inner.free += childClass.numNormalSources + childClass.normalRows.NumRows();
+        }
+        evaluateClass(child.tileClass, inner, visit);
     }
+}
 
-    // A spline: how long its tangents should be, then window by window.
-    float largestU = 0, largestV = 0;
-    auto const between = [&](int i, int j) {
-        float const* const p = place.points[c.pointIndices[index(i)]].v;
-        float const* const q = place.points[c.pointIndices[index(j)]].v;
-        float const x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
-        return x * x + y * y + z * z;
+void ShadingEvaluator::Impl::evaluateDense(TileClass const& c, Place const& place, LeafSources const& sources,
+                                           Visit& visit) {
+    TileDictionary const& dictionary = data->dictionary;
+    Worker& worker = *visit.worker;
+    LeafBlend const blend = blendOfLeaf(visit);
+    bool const hasTangents = needsLimits || (needsBlended && blend != LeafBlend::One);
+    bool const hasNormals = visit.hasNormals && blend != LeafBlend::Zero;
+    DenseMatrix const& matrix = dictionary.matrices[index(c.frameMatrix)];
+    FieldArrays const fields[3] = {worker.position, worker.tangent1, worker.tangent2};
+    if (hasNormals && c.normalMatrix == c.frameMatrix) {
+        kernels->evaluateDenseWithNormals(matrix, place.points, sources.points, place.normals, sources.normals,
+                                          fields, worker.subdivided);
+    } else {
+        kernels->evaluateDense(matrix, place.points, sources.points, fields);
+        if (hasNormals) {
+            kernels->evaluateDense(dictionary.matrices[index(c.normalMatrix)], place.normals, sources.normals,
+                                   &worker.subdivided);
+        }
+    }
+    float size = 0;
+    if (hasTangents) {
+        LocalPoint const& first = place.points[sources.points[0]];
+        LocalPoint reach{{0, 0, 0, 0}};
+        for (int i = 1; i < matrix.numColumns; ++i) {
+            reach = LargerOf(reach, place.points[sources.points[i]] - first);
+        }
+        size = LengthBound(reach) * kDenseDoubt;
+    }
+    finishLeaf(c, c.numPoints, c.tangentSums[0] * size, c.tangentSums[1] * size, place, hasTangents, visit);
+}
+
+void ShadingEvaluator::Impl::evaluateSpline(TileClass const& c, Place const& place, LeafSources const& sources,
+                                            Visit& visit) {
+    TileDictionary const& dictionary = data->dictionary;
+    Worker& worker = *visit.worker;
+
+    // How long its tangents should be, by the inner rows and columns of control points.
+    LocalPoint reachU{{0, 0, 0, 0}}, reachV{{0, 0, 0, 0}};
+    auto const at = [&](int row, int column) -> LocalPoint const& {
+        return place.points[sources.points[4 * row + column]];
     };
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 1; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            largestU = std::max(largestU, between(4 * i + j, 4 * i + j + 1));
-            largestV = std::max(largestV, between(4 * j + i, 4 * j + 4 + i));
+            reachU = LargerOf(reachU, at(i, j + 1) - at(i, j));
+            reachV = LargerOf(reachV, at(j + 1, i) - at(j, i));
         }
     }
-    float const smallestU = std::sqrt(largestU) * kShortTangent, smallestV = std::sqrt(largestV) * kShortTangent;
+    float const doubtU = LengthBound(reachU) * kSplineDoubt, doubtV = LengthBound(reachV) * kSplineDoubt;
+
+    // Window by window.
+    bool const isRefined = !dictionary.bases.positions.empty();
+    auto const& limits = dictionary.bases.limits[c.k];
+    auto const& positions = isRefined ? dictionary.bases.positions[c.k] : limits;
     int const numWindows = NumWindows(c.k), normalPitch = (1 << c.numNormalLevels) + 3;
     for (int window = 0; window < numWindows * numWindows; ++window) {
         RowPlan const& plan = dictionary.plans[index(c.plans[index(window)])];
         LeafBlend const blend = blendOfLeaf(visit);
         bool const hasTangents = needsLimits || (needsBlended && blend != LeafBlend::One);
-        int const row = window / numWindows, column = window % numWindows;
-        auto const& limits = dictionary.bases.limits[c.k];
+        bool const hasNormals = visit.hasNormals && blend != LeafBlend::Zero;
+        auto const row = index(window / numWindows), column = index(window % numWindows);
         if (plan.numPoints > 0) {
             if (hasTangents) {
-                kernels->evaluateSplineFrame(limits[index(column)], limits[index(row)], plan, place.points,
-                                             c.pointIndices.data(), worker.position, worker.tangent1,
-                                             worker.tangent2);
+                kernels->evaluateSplineFrame(limits[column], limits[row], plan, place.points, sources.points,
+                                             worker.position, worker.tangent1, worker.tangent2);
             }
-            bool const isRefined = !dictionary.bases.positions.empty();
             if (isRefined || !hasTangents) {
-                auto const& positions = isRefined ? dictionary.bases.positions[c.k] : limits;
-                kernels->evaluateSpline(positions[index(column)], positions[index(row)], plan, place.points,
-                                        c.pointIndices.data(), worker.position);
+                kernels->evaluateSpline(positions[column], positions[row], plan, place.points, sources.points,
+                                        worker.position);
             }
-            if (visit.hasNormals && blend != LeafBlend::Zero) {
+            if (hasNormals && c.numNormalLevels == 0) {
+                kernels->evaluateSpline(limits[column], limits[row], plan, place.normals, sources.normals,
+                                        worker.subdivided);
+            } else if (hasNormals) {
                 int firstColumn = 0, firstRow = 0;
-                SplineBasis const& u = dictionary.bases.ForNormals(c.k, c.numNormalLevels, column, firstColumn);
-                SplineBasis const& v = dictionary.bases.ForNormals(c.k, c.numNormalLevels, row, firstRow);
+                SplineBasis const& u =
+                    dictionary.bases.ForNormals(c.k, c.numNormalLevels, static_cast<int>(column), firstColumn);
+                SplineBasis const& v =
+                    dictionary.bases.ForNormals(c.k, c.numNormalLevels, static_cast<int>(row), firstRow);
                 std::uint16_t indices[(kLeafSide + 3) * (kLeafSide + 3)];
                 int const side = u.gridSize + 3;
                 for (int i = 0; i < side; ++i) {
-                    std::copy_n(c.normalIndices.data() + (firstRow + i) * normalPitch + firstColumn, side,
+                    std::copy_n(sources.normals + (firstRow + i) * normalPitch + firstColumn, side,
                                 indices + i * side);
                 }
                 kernels->evaluateSpline(u, v, plan, place.normals, indices, worker.subdivided);
             }
         }
-        finishLeaf(c, plan.numPoints, smallestU, smallestV, place, hasTangents, visit);
+        finishLeaf(c, plan.numPoints, doubtU, doubtV, place, hasTangents, visit);
     }
 }
 
-void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoints, float smallest1, float smallest2,
+void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoints, float doubt1, float doubt2,
                                         Place const& place, bool hasTangents, Visit& visit) {
     Worker& worker = *visit.worker;
     LeafBlend const blend = blendOfLeaf(visit);
@@ -424,8 +473,8 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
         turn(worker.tangent1.y, worker.tangent2.y);
         turn(worker.tangent1.z, worker.tangent2.z);
         float const scale = std::max(std::fabs(f.a) + std::fabs(f.b), std::fabs(f.c) + std::fabs(f.d)) / 2;
-        smallest1 *= scale;
-        smallest2 *= scale;
+        doubt1 *= scale;
+        doubt2 *= scale;
     }
 
     LeafFrame leaf{};
@@ -436,8 +485,8 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
         leaf.tangent1 = worker.tangent1;
         leaf.tangent2 = worker.tangent2;
     }
-    leaf.smallest1 = smallest1;
-    leaf.smallest2 = smallest2;
+    leaf.doubt1 = doubt1;
+    leaf.doubt2 = doubt2;
     if (visit.hasNormals && blend != LeafBlend::Zero) leaf.subdivided = worker.subdivided;
     if (blend == LeafBlend::Mixed) leaf.blend = data->blendPowers.data() + weight;
     LeafFrame::Output* const targets[kNumVectors] = {&leaf.positions,    &leaf.blendedNormals,
@@ -516,22 +565,12 @@ void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass,
         target[1] = v.y;
         target[2] = v.z;
     };
-    std::vector<GridPoint> points;
     for (int i = 0; i < leaf.numDoubtful; ++i) {
         std::size_t const point = leaf.doubtful[i];
         Vec3<double> exact;
         bool const isAverage = findAverage(tileClass.averages, static_cast<int>(point), place.points, exact);
         if (!isAverage) {
-            Tile const& tile = data->tiles[index(visit.tile)];
-            if (points.empty()) points = FindTilePoints(data->dictionary, tile);
-            ExactNormals const* finder;
-            {
-                std::lock_guard<std::mutex> const lock(exactMutex);
-                if (!exactNormals) exactNormals = std::make_unique<ExactNormals>(*data);
-                finder = exactNormals.get();
-            }
-            exact =
-                finder->Find(visit.tile, points[index(firstValue - tile.firstValue) + point], visit.controlPoints);
+            exact = exactNormals->Find(visit.tile, firstValue + static_cast<int>(point), visit.controlPoints);
             ++visit.worker->numFallbacks;
         }
         Vec3<float> limit{static_cast<float>(exact.x), static_cast<float>(exact.y), static_cast<float>(exact.z)};

@@ -581,12 +581,12 @@ TEST_P(PatchKernelsOf, WithoutNLTheBlendIsNS) {
     EXPECT_EQ(frame.numDoubtful, 18);
 }
 
-TEST_P(PatchKernelsOf, ShortAndParallelTangentsAreDoubtful) {
+TEST_P(PatchKernelsOf, TangentsThatReachTooLittleAcrossEachOtherAreDoubtful) {
     Random random(7);
     for (int const numPoints : kSizes) {
         Leaf leaf(numPoints, kNan);
         fillRandomly(leaf, random);
-        double const sine = 1 / 32.0;
+        double const sine = 0.02;
         std::vector<std::uint16_t> expected;
         for (int i = 0; i < numPoints; ++i) {
             bool isDoubtful = true;
@@ -601,7 +601,7 @@ TEST_P(PatchKernelsOf, ShortAndParallelTangentsAreDoubtful) {
                     leaf.tangent1.Set(i, {1, 0, 0}), leaf.tangent2.Set(i, {3, 0, 0});
                     break;
                 case 3:
-                    leaf.tangent1.Set(i, {1, 0, 0}), leaf.tangent2.Set(i, {3, 3 * 0.99 * sine, 0});
+                    leaf.tangent1.Set(i, {1, 0, 0}), leaf.tangent2.Set(i, {3, 0.0297, 0});  // less than |t2| doubt1
                     break;
                 case 4:
                     leaf.tangent1.Set(i, {0, 0, 0}), leaf.tangent2.Set(i, {0, 0, 0});
@@ -622,10 +622,9 @@ TEST_P(PatchKernelsOf, ShortAndParallelTangentsAreDoubtful) {
         }
         Outputs outputs(numPoints, 3);
         LeafFrame frame = makeFrame(leaf, outputs, 1);
-        frame.smallest1 = 0.01F;
-        frame.smallest2 = 0.015F;
+        frame.doubt1 = 0.01F;
         frame.blendedNormals = outputs.blended.Get();
-        frame.smallest2 = 0.02F;
+        frame.doubt2 = 0.02F;
         kernels().finish(frame);
         ASSERT_EQ(frame.numDoubtful, static_cast<int>(expected.size()));
         EXPECT_TRUE(std::equal(expected.begin(), expected.end(), outputs.doubtful.begin()));

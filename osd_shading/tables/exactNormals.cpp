@@ -15,14 +15,109 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-std::vector<Vec3<double>> pointsOf(std::vector<int> const& vertices, std::vector<Vec3<double>> const& points) {
-    std::vector<Vec3<double>> picked;
-    picked.reserve(vertices.size());
-    for (int const v : vertices) picked.push_back(points[index(v)]);
-    return picked;
-}
+/// How many values a table keeps the exact normals of.
+constexpr std::size_t kMostKept = 4096;
 
 }  // namespace
+
+ExactNormal::ExactNormal(TileRing ring, SubdivisionRules const& rules, int k, GridPoint const& at)
+    : _vertices(ring.vertices), _rows(ring.vertices.size() * ring.vertices.size(), 0) {
+    for (std::size_t i = 0; i < _vertices.size(); ++i) _rows[i * _vertices.size() + i] = 1;
+
+    // Go down to a small face at the point, as far as meshes made anew are refined alike.
+    bool const isCatmark = rules.scheme == Sdc::SCHEME_CATMARK;
+    int row = at.row, column = at.column;
+    bool isNgon = isCatmark && ring.faceSizes[index(ring.tileFace)] != 4;
+    while (k > 0) {
+        RefinedTopology const topology(ring.Mesh(rules), 1);
+        int const half = 1 << (k - 1);
+        int child, nextRow = row, nextColumn = column;
+        if (isNgon) {
+            child = at.child;
+        } else if (isCatmark) {
+            bool const isHighRow = row >= half, isHigh = column >= half;
+            child = isHighRow ? (isHigh ? 2 : 3) : (isHigh ? 1 : 0);
+            nextRow -= isHighRow ? half : 0;
+            nextColumn -= isHigh ? half : 0;
+        } else if (column >= half) {
+            child = 1;
+            nextColumn -= half;
+        } else if (row >= half) {
+            child = 2;
+            nextRow -= half;
+        } else if (row + column <= half) {
+            child = 0;
+        } else {
+            child = 3;
+            nextRow = half - row;
+            nextColumn = half - column;
+        }
+        RegionLevels levels(topology);
+        int const childFace = topology.Level(0).GetFaceChildFaces(ring.tileFace)[child];
+        if (!IsRefinedAlike(levels, 1, childFace)) break;
+        TileRing next = levels.Rings(1).Find(childFace, 0, k - 1);
+        refine(topology, 1, next.vertices);
+        ring = std::move(next);
+        row = nextRow;
+        column = nextColumn;
+        isNgon = false;
+        --k;
+    }
+
+    _topology = std::make_unique<RefinedTopology>(ring.Mesh(rules), k);
+    for (int level = 1; level <= k; ++level) refine(*_topology, level, {});
+    _regions = std::make_unique<CreaseRegions>(*_topology, k, 1);
+    _step = std::make_unique<LimitStep<double>>(*_topology, k, *_regions, 1);
+    int const gridFace = isNgon ? _topology->Level(0).GetFaceChildFaces(ring.tileFace)[at.child] : ring.tileFace;
+    int const side = 1 << (isNgon ? k - 1 : k);
+    FaceCorner const corner =
+        FindFaceGrid(*_topology, isNgon ? 1 : 0, gridFace, k)[index(row * (side + 1) + column)];
+    _value = _regions->CornerValue(corner.face, corner.corner);
+}
+
+/// Takes the rows a level down; `picked` are kept of its vertices, all where it is empty.
+void ExactNormal::refine(RefinedTopology const& topology, int level, std::vector<int> const& picked) {
+    // Three columns at a time, as if they were points.
+    std::size_t const numColumns = _vertices.size(), numRows = _rows.size() / numColumns;
+    LevelMasks<double> const masks = topology.RecordMasks<double>(level);
+    std::size_t const numNext = picked.empty() ? index(masks.numChildVertices) : picked.size();
+    std::vector<double> next(numNext * numColumns);
+    std::vector<Vec3<double>> columns(numRows);
+    for (std::size_t first = 0; first < numColumns; first += 3) {
+        auto const entry = [&](std::vector<double>& rows, std::size_t row, std::size_t i) -> double* {
+            return first + i < numColumns ? &rows[row * numColumns + first + i] : nullptr;
+        };
+        for (std::size_t row = 0; row < numRows; ++row) {
+            double const* const y = entry(_rows, row, 1);
+            double const* const z = entry(_rows, row, 2);
+            columns[row] = {*entry(_rows, row, 0), y ? *y : 0, z ? *z : 0};
+        }
+        std::vector<Vec3<double>> const refined = RefinePoints(masks, columns, 1);
+        for (std::size_t row = 0; row < numNext; ++row) {
+            Vec3<double> const& r = refined[picked.empty() ? row : index(picked[row])];
+            double const values[3] = {r.x, r.y, r.z};
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (double* const target = entry(next, row, i)) *target = values[i];
+            }
+        }
+    }
+    _rows.swap(next);
+}
+
+Vec3<double> ExactNormal::Find(PointView<float> controlPoints) const {
+    // Relative to one of them: what a distant origin would round away stays.
+    std::size_t const numColumns = _vertices.size();
+    Vec3<float> const origin = controlPoints[index(_vertices[0])];
+    std::vector<Vec3<double>> sides(numColumns), points(_rows.size() / numColumns);
+    for (std::size_t i = 0; i < numColumns; ++i) {
+        Vec3<float> const p = controlPoints[index(_vertices[i])];
+        sides[i] = {double{p.x} - double{origin.x}, double{p.y} - double{origin.y}, double{p.z} - double{origin.z}};
+    }
+    for (std::size_t row = 0; row < points.size(); ++row) {
+        for (std::size_t i = 0; i < numColumns; ++i) points[row] += _rows[row * numColumns + i] * sides[i];
+    }
+    return ComputeLimitNormals(*_step, points, 1).normals[index(_value)];
+}
 
 ExactNormals::ExactNormals(TableData const& data) : _data(data) {
     TableMesh const& mesh = data.mesh;
@@ -38,7 +133,7 @@ ExactNormals::ExactNormals(TableData const& data) : _data(data) {
     }
 }
 
-Vec3<double> ExactNormals::Find(int tile, GridPoint const& at, PointView<float> controlPoints) const {
+TileRing ExactNormals::findRing(int tile) const {
     // The control faces that share a vertex with the tile's, in their order.
     TableMesh const& mesh = _data.mesh;
     std::vector<int> faces{tile};
@@ -97,63 +192,26 @@ Vec3<double> ExactNormals::Find(int tile, GridPoint const& at, PointView<float> 
         ring.cornerVertices.push_back(v);
         ring.cornerSharpness.push_back(mesh.cornerSharpness[i]);
     }
-    std::vector<Vec3<double>> points;
-    for (int const v : vertices) {
-        Vec3<float> const p = controlPoints[index(v)];
-        points.push_back({double{p.x}, double{p.y}, double{p.z}});
-    }
+    ring.vertices = std::move(vertices);
+    return ring;
+}
 
-    // Go down to a small face at the point.
-    bool const isCatmark = mesh.rules.scheme == Sdc::SCHEME_CATMARK;
-    int k = _data.options.level, row = at.row, column = at.column;
-    bool isNgon = isCatmark && mesh.FaceSize(tile) != 4;
-    constexpr int kSmall = 2;
-    while (k > kSmall || (isNgon && k > 0)) {
-        RefinedTopology const topology(ring.Mesh(mesh.rules), 1);
-        int const half = 1 << (k - 1);
-        int child, nextRow = row, nextColumn = column;
-        if (isNgon) {
-            child = at.child;
-        } else if (isCatmark) {
-            bool const isHighRow = row >= half, isHigh = column >= half;
-            child = isHighRow ? (isHigh ? 2 : 3) : (isHigh ? 1 : 0);
-            nextRow -= isHighRow ? half : 0;
-            nextColumn -= isHigh ? half : 0;
-        } else if (column >= half) {
-            child = 1;
-            nextColumn -= half;
-        } else if (row >= half) {
-            child = 2;
-            nextRow -= half;
-        } else if (row + column <= half) {
-            child = 0;
-        } else {
-            child = 3;
-            nextRow = half - row;
-            nextColumn = half - column;
-        }
-        RegionLevels levels(topology);
-        int const childFace = topology.Level(0).GetFaceChildFaces(ring.tileFace)[child];
-        if (!IsRefinedAlike(levels, 1, childFace)) break;
-        points = RefinePoints(topology.RecordMasks<double>(1), points, 1);
-        TileRing next = TileRings(topology, 1).Find(childFace, 0, k - 1);
-        points = pointsOf(next.vertices, points);
-        ring = std::move(next);
-        row = nextRow;
-        column = nextColumn;
-        isNgon = false;
-        --k;
+Vec3<double> ExactNormals::Find(int tileIndex, int value, PointView<float> controlPoints) {
+    ExactNormal const* known = nullptr;
+    {
+        std::lock_guard<std::mutex> const lock(_mutex);
+        auto const found = _known.find(value);
+        if (found != _known.end()) known = found->second.get();
     }
-
-    RefinedTopology const topology(ring.Mesh(mesh.rules), k);
-    for (int level = 1; level <= k; ++level) points = RefinePoints(topology.RecordMasks<double>(level), points, 1);
-    CreaseRegions const regions(topology, k, 1);
-    LimitStep<double> const step(topology, k, regions, 1);
-    LimitNormals<double> const limits = ComputeLimitNormals(step, points, 1);
-    int const gridFace = isNgon ? topology.Level(0).GetFaceChildFaces(ring.tileFace)[at.child] : ring.tileFace;
-    int const side = 1 << (isNgon ? k - 1 : k);
-    FaceCorner const corner = FindFaceGrid(topology, isNgon ? 1 : 0, gridFace, k)[index(row * (side + 1) + column)];
-    return limits.normals[index(regions.CornerValue(corner.face, corner.corner))];
+    if (known) return known->Find(controlPoints);
+    Tile const& tile = _data.tiles[index(tileIndex)];
+    GridPoint const point = FindTilePoints(_data.dictionary, tile)[index(value - tile.firstValue)];
+    auto made =
+        std::make_unique<ExactNormal const>(findRing(tileIndex), _data.mesh.rules, _data.options.level, point);
+    Vec3<double> const normal = made->Find(controlPoints);
+    std::lock_guard<std::mutex> const lock(_mutex);
+    if (_known.size() < kMostKept) _known.emplace(value, std::move(made));
+    return normal;
 }
 
 }  // namespace tables

@@ -30,6 +30,21 @@ inline LocalPoint operator-(LocalPoint const& a, LocalPoint const& b) {
     return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}};
 }
 
+/// The larger size of each component, without signs.
+inline LocalPoint LargerOf(LocalPoint const& a, LocalPoint const& b) {
+    LocalPoint c;
+    for (int i = 0; i < 4; ++i) {
+        float const size = b.v[i] < 0 ? -b.v[i] : b.v[i];
+        c.v[i] = a.v[i] > size ? a.v[i] : size;
+    }
+    return c;
+}
+/// The largest component of a point that has no signs: at most its length, and more than half of it.
+inline float LengthBound(LocalPoint const& a) {
+    float const xy = a.v[0] > a.v[1] ? a.v[0] : a.v[1];
+    return xy > a.v[2] ? xy : a.v[2];
+}
+
 /// A field of three components at a leaf's points, in the order of the output. Each array holds kLeafCapacity
 /// floats and is aligned to 64 bytes; what lies past the points is undefined.
 struct FieldArrays {
@@ -78,7 +93,7 @@ struct LeafFrame {
     float origin[3];                 ///< added to positions
     FieldArrays position;            ///< relative to `origin`
     FieldArrays tangent1, tangent2;  ///< x null: no N_L is needed (b is 1 everywhere, or positions alone)
-    float smallest1, smallest2;      ///< a shorter tangent 1, 2 is doubtful
+    float doubt1, doubt2;            ///< how far a tangent must reach across the other, or it is doubtful
     FieldArrays subdivided;          ///< N_S, not normalised; x null: b is 0 everywhere
     float const* blend;              ///< b^p per point, in [0, 1]; null with `subdivided`: 1 everywhere
 
@@ -113,17 +128,23 @@ struct PatchKernels {
     void (*evaluateDense)(DenseMatrix const& matrix, LocalPoint const* points, std::uint16_t const* indices,
                           FieldArrays const* fields);
 
+    /// The same with 3 fields, and at the same time the first field's weights on `normals`.
+    void (*evaluateDenseWithNormals)(DenseMatrix const& matrix, LocalPoint const* points,
+                                     std::uint16_t const* indices, LocalPoint const* normals,
+                                     std::uint16_t const* normalIndices, FieldArrays const* fields,
+                                     FieldArrays const& subdivided);
+
     /// Normals of the tangents, blend, output.
     ///
     ///     N_L = normalize(tangent1 x tangent2)
     ///     N_S = normalize(subdivided), 0 where its length is at most 1e-6
     ///     N_B = normalize((1 - b) N_L + b N_S); N_L where b is 0 or where the sum vanishes (length <= 1e-6)
     ///
-    /// subdividedNormals are 0 where b is 0. A point is doubtful when a tangent is shorter than its smallest, or
-    /// |t1 x t2| <= |t1| |t2| / 32, or where the squares of |t1| |t2| or of the cross product leave the range of
-    /// floats (|t1 x t2| below 1e-18 is taken as that); NaN is not doubtful. Without tangents N_B is N_S (b is 1),
-    /// and no point is doubtful. N_L and N_B of doubtful points are written all the same; never NaN where the
-    /// tangents' cross product is zero. N_B is the same bits whatever else is written.
+    /// subdividedNormals are 0 where b is 0. A point is doubtful when |t1 x t2| <= |t1| doubt2 or |t2| doubt1, or
+    /// where the square of the cross product leaves the range of floats (|t1 x t2| below 1e-18 is taken as that);
+    /// NaN is not doubtful. Without tangents N_B is N_S (b is 1), and no point is doubtful. N_L and N_B of doubtful
+    /// points are written all the same; never NaN where the tangents' cross product is zero. N_B is the same bits
+    /// whatever else is written.
     void (*finish)(LeafFrame& frame);
 
     /// results[i] = sum of weights[t] * points[sources[t]] for t in [offsets[i], offsets[i + 1]); results may

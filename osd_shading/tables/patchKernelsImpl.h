@@ -27,7 +27,14 @@ template <typename Lanes>
 class KernelsFor {
 public:
     static constexpr PatchKernels Table(char const* name) {
-        return {name, Lanes::kCount, &evaluateSpline, &evaluateSplineFrame, &evaluateDense, &finish, &combine};
+        return {name,
+                Lanes::kCount,
+                &evaluateSpline,
+                &evaluateSplineFrame,
+                &evaluateDense,
+                &evaluateDenseWithNormals,
+                &finish,
+                &combine};
     }
 
 private:
@@ -421,6 +428,45 @@ private:
         }
     }
 
+    static void evaluateDenseWithNormals(DenseMatrix const& matrix, LocalPoint const* points,
+                                         std::uint16_t const* indices, LocalPoint const* normals,
+                                         std::uint16_t const* normalIndices, FieldArrays const* fields,
+                                         FieldArrays const& subdivided) {
+        constexpr std::ptrdiff_t kColumnPitch = std::ptrdiff_t(3) * kDenseBlock;
+        for (int first = 0; first < matrix.numPoints; first += kLanes) {
+            float const* weights =
+                matrix.weights + first / kDenseBlock * kColumnPitch * matrix.numColumns + first % kDenseBlock;
+            V x[3], y[3], z[3], nx = V::Set(0), ny = V::Set(0), nz = V::Set(0);
+            for (int f = 0; f < 3; ++f) x[f] = y[f] = z[f] = V::Set(0);
+            for (int column = 0; column < matrix.numColumns; ++column, weights += kColumnPitch) {
+                float const* const p = points[indices[column]].v;
+                float const* const n = normals[normalIndices[column]].v;
+                V const px = V::Broadcast(p), py = V::Broadcast(p + 1), pz = V::Broadcast(p + 2);
+                V const position = V::Load(weights).Kept();
+                x[0] = MulAdd(position, px, x[0]);
+                y[0] = MulAdd(position, py, y[0]);
+                z[0] = MulAdd(position, pz, z[0]);
+                nx = MulAdd(position, V::Broadcast(n), nx);
+                ny = MulAdd(position, V::Broadcast(n + 1), ny);
+                nz = MulAdd(position, V::Broadcast(n + 2), nz);
+                for (int f = 1; f < 3; ++f) {
+                    V const tangent = V::Load(weights + f * kDenseBlock).Kept();
+                    x[f] = MulAdd(tangent, px, x[f]);
+                    y[f] = MulAdd(tangent, py, y[f]);
+                    z[f] = MulAdd(tangent, pz, z[f]);
+                }
+            }
+            for (int f = 0; f < 3; ++f) {
+                x[f].Store(fields[f].x + first);
+                y[f].Store(fields[f].y + first);
+                z[f].Store(fields[f].z + first);
+            }
+            nx.Store(subdivided.x + first);
+            ny.Store(subdivided.y + first);
+            nz.Store(subdivided.z + first);
+        }
+    }
+
     // --- Normals and output -----------------------------------------------------------------------------------
 
     struct V3 {
@@ -496,14 +542,14 @@ private:
 
     // Squares of lengths. A cross product whose square is smaller than kTiny loses digits to underflow; N_S of
     // length 1e-6 and sums of normals that are so short count as vanished.
-    static constexpr float kTiny = 1e-36F, kVanished = 1e-12F;
+    static constexpr float kTiny = 1e-36F, kHuge = 3e38F, kVanished = 1e-12F;
 
     template <Blend kBlend>
     static void finishNormals(LeafFrame& frame) {
         int const numPoints = frame.numPoints;
         unsigned const all = numPoints < kLanes ? (1U << numPoints) - 1 : (1U << (kLanes - 1)) * 2 - 1;
-        V const smallest1 = V::Set(frame.smallest1 * frame.smallest1);
-        V const smallest2 = V::Set(frame.smallest2 * frame.smallest2);
+        V const doubt1 = V::Set(frame.doubt1 * frame.doubt1);
+        V const doubt2 = V::Set(frame.doubt2 * frame.doubt2);
         V const one = V::Set(1), tiny = V::Set(kTiny), vanished = V::Set(kVanished);
         float const* blend = frame.blend;
         alignas(64) float fewBlends[kLanes];
@@ -519,10 +565,10 @@ private:
                 V3 const a = load(frame.tangent1, first), b = load(frame.tangent2, first);
                 n = {MulSub(a.y, b.z, a.z * b.y), MulSub(a.z, b.x, a.x * b.z), MulSub(a.x, b.y, a.y * b.x)};
                 n2 = squaredLength(n);
-                // Infinite n2 and NaN by overflow of n come with an infinite product of squares, and are doubtful.
+                // An infinite n2, and NaN by overflow of n, are doubtful.
                 V const a2 = squaredLength(a), b2 = squaredLength(b);
-                auto const good = And(Greater(n2 * V::Set(1024), Max(a2 * b2, V::Set(1024 * kTiny))),
-                                      And(NotLess(a2, smallest1), NotLess(b2, smallest2)));
+                auto const good =
+                    And(Greater(n2, Max(tiny, Max(a2 * doubt2, b2 * doubt1))), Greater(V::Set(kHuge), n2));
                 unsigned const doubtful = ~Bits(good) & all;
                 if (doubtful != 0) addDoubtful(frame, first, doubtful & Bits(NotLess(a2 + b2, a2 + b2)));
                 n2 = Max(tiny, n2);

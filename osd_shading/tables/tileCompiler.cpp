@@ -1033,13 +1033,60 @@ TileClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
             }
             normalRows.push_back(valueSum.Take());
         }
-        made.normalMatrix = addMatrix(made.numPoints, 1, normalRows, made.normalIndices);
+        // Where each vertex has one value the weights are those of the positions: one matrix does for both.
+        std::vector<int> normalOfPoint(index(made.numSources), -1);
+        bool isSame = q == 0 && _contents.positions == PositionKind::Limit && made.numPoints > 0;
+        for (int f = 0; f < startLevel.GetNumFaces() && isSame; ++f) {
+            for (int corner = 0; corner < startLevel.GetFaceVertices(f).size(); ++corner) {
+                int const normal = localOfValue[index(fields.Regions(0).CornerValue(f, corner))];
+                int const point = localOfVertex[index(startLevel.GetFaceVertices(f)[corner])];
+                if (normal < 0 || point < 0) continue;
+                isSame &= normalOfPoint[index(point)] < 0 || normalOfPoint[index(point)] == normal;
+                normalOfPoint[index(point)] = normal;
+            }
+        }
+        for (std::size_t i = 0; i < points.size() && isSame; ++i) {
+            Row turned;
+            for (auto const& [point, weight] : frameRows[3 * i])
+                turned.emplace_back(normalOfPoint[index(point)], weight);
+            std::sort(turned.begin(), turned.end());
+            isSame &= turned == normalRows[i];
+        }
+        if (isSame) {
+            made.normalMatrix = made.frameMatrix;
+            // A column of tangents alone weighs nothing on normals: any will do.
+            for (auto const point : made.pointIndices)
+                made.normalIndices.push_back(localIndex(index(std::max(normalOfPoint[point], 0))));
+        } else {
+            made.normalMatrix = addMatrix(made.numPoints, 1, normalRows, made.normalIndices);
+        }
     }
     return made;
 }
 
+namespace {
+
+void placeLeaf(TileClass const& leaf, ChildTile& child) {
+    if (leaf.kind == TileKind::Split || leaf.pointRows.NumRows() > 0 || leaf.normalRows.NumRows() > 0) return;
+    auto const compose = [](std::vector<std::uint16_t>& indices, std::vector<std::uint16_t> const& own) {
+        std::vector<std::uint16_t> composed;
+        for (auto const i : own) composed.push_back(indices[i]);
+        indices.swap(composed);
+    };
+    // An average's rows name all sources, not those of the matrix.
+    if (!leaf.averages.normals.empty()) return;
+    compose(child.pointIndices, leaf.pointIndices);
+    if (!child.normalIndices.empty()) compose(child.normalIndices, leaf.normalIndices);
+    child.isInPlace = true;
+}
+
+}  // namespace
+
 TileDictionary TileCompiler::Take() {
     TileDictionary dictionary = std::move(_dictionary);
+    for (TileClass& parent : dictionary.classes) {
+        for (ChildTile& child : parent.children) placeLeaf(dictionary.classes[index(child.tileClass)], child);
+    }
     dictionary.classes.shrink_to_fit();
     dictionary.weights.shrink_to_fit();
     dictionary.segments.shrink_to_fit();

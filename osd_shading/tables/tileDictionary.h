@@ -60,6 +60,9 @@ enum class TileKind : std::uint8_t {
 
 /// A child of a split tile.
 struct ChildTile {
+    /// A leaf without rows reads the parent's points where they are: its indices below stand for those of its
+    /// class.
+    bool isInPlace = false;
     int tileClass = 0;
     int rotation = 0;  ///< which of the child's corners, in OpenSubdiv's order, its class begins with
     std::vector<std::uint16_t> pointIndices;   ///< its sources among the parent's local points
