@@ -147,17 +147,6 @@ std::vector<Shape> SomeShapes() {
     return some;
 }
 
-::testing::AssertionResult IsSameFrame(TableFrame const& a, TableFrame const& b) {
-    auto const differs = [](char const* what) { return ::testing::AssertionFailure() << what << " differ"; };
-    if (!HasSameBits(a.positions, b.positions)) return differs("positions");
-    if (!HasSameBits(a.blendedNormals, b.blendedNormals)) return differs("blendedNormals");
-    if (!HasSameBits(a.limitNormals, b.limitNormals)) return differs("limitNormals");
-    if (!HasSameBits(a.subdividedNormals, b.subdividedNormals)) return differs("subdividedNormals");
-    if (!HasSameBits(a.du, b.du) || !HasSameBits(a.dv, b.dv)) return differs("tangents");
-    if (!HasSameBits(a.blendWeights, b.blendWeights)) return differs("blendWeights");
-    return ::testing::AssertionSuccess();
-}
-
 TEST(ShadingTable, OfARefinerIsThatOfItsMesh) {
     for (Shape const& shape : SomeShapes()) {
         std::vector<float> const points = shape.FloatPositions();

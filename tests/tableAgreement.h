@@ -51,6 +51,22 @@ inline TableFrame EvaluateAll(ShadingTable const& table, PointView<float> contro
     return frame;
 }
 
+/// Whether two frames hold the same bits.
+inline ::testing::AssertionResult IsSameFrame(TableFrame const& a, TableFrame const& b) {
+    auto const differs = [](char const* what) { return ::testing::AssertionFailure() << what << " differ"; };
+    if (!HasSameBits(a.positions, b.positions)) return differs("positions");
+    if (!HasSameBits(a.blendedNormals, b.blendedNormals)) return differs("blendedNormals");
+    if (!HasSameBits(a.limitNormals, b.limitNormals)) return differs("limitNormals");
+    if (!HasSameBits(a.subdividedNormals, b.subdividedNormals)) return differs("subdividedNormals");
+    if (!HasSameBits(a.du, b.du) || !HasSameBits(a.dv, b.dv)) return differs("tangents");
+    if (!HasSameBits(a.blendWeights, b.blendWeights)) return differs("blendWeights");
+    if (a.report.fallbackNormals != b.report.fallbackNormals ||
+        a.report.zeroStartNormals != b.report.zeroStartNormals) {
+        return differs("reports");
+    }
+    return ::testing::AssertionSuccess();
+}
+
 /// The one-shot path in double from the same float points, and |N_S| before it is normalised.
 struct Reference {
     ShadingResult<double> result;
