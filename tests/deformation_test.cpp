@@ -42,7 +42,7 @@ TEST(Deformation, BendsABarByHand) {
     ExpectAt(Deformed(DeformationKind::Bend, frame, {0, 5, 3}, 0.25), 0, 3 + radius * std::sqrt(0.5),
              3 + radius * (1 - std::sqrt(0.5)));
     // Half of half a turn.
-    ExpectAt(Deformed(DeformationKind::Twist, frame, {0.5F, 5, 3}, 0.25), 0, 5, 3.5);
+    ExpectAt(Deformed(DeformationKind::Twist, frame, {0.5F, 5, 3}, 0.25), 0, 5, 2.5);
     // A quarter of a wave later the crest, a twentieth of 4 high, is in the middle, its slope upside down.
     ExpectAt(Deformed(DeformationKind::Wave, frame, {0, 3, 3}, 0.25), 0, 3, 2.8);
 }
