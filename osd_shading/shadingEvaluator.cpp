@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -97,6 +98,7 @@ struct ShadingEvaluator::Impl {
         Worker* worker = nullptr;
         int tile = 0, value = 0;
         bool hasNormals = false;
+        bool isMarking = false;  // points stand for whether they depend on a number that is not finite
         LeafBlend const* leafBlend = nullptr;  // null: the same for all leaves
         LeafBlend blend = LeafBlend::Zero;
         std::size_t weight = 0;  // of the next mixed leaf
@@ -164,6 +166,7 @@ struct ShadingEvaluator::Impl {
     FrameReport evaluate(PointView<float> controlPoints, PointView<float> userNormals,
                          ShadingOutputs const& outputs);
     void evaluateTile(int tile, Visit& visit);
+    void startVisit(Tile const& tile, Visit& visit) const;
     void evaluateClass(int tileClass, Place const& place, Visit& visit);
     void evaluateSplit(TileClass const& tileClass, Place const& place, Visit& visit);
     void evaluateDense(TileClass const& tileClass, Place const& place, LeafSources const& sources, Visit& visit);
@@ -171,6 +174,8 @@ struct ShadingEvaluator::Impl {
     void finishLeaf(TileClass const& tileClass, int numPoints, float doubt1, float doubt2, Place const& place,
                     bool hasTangents, Visit& visit);
     void settle(LeafFrame& leaf, TileClass const& tileClass, Place const& place, int firstValue, Visit& visit);
+    void spoil(int numPoints, std::size_t value, std::size_t weight, bool hasTangents, LeafBlend blend,
+               Worker const& worker) const;
     LeafBlend blendOfLeaf(Visit const& visit) const { return visit.leafBlend ? *visit.leafBlend : visit.blend; }
 
     std::shared_ptr<TableData const> data;
@@ -246,30 +251,34 @@ void ShadingEvaluator::Impl::evaluateTile(int tileIndex, Visit& visit) {
     TileClass const& tileClass = data->dictionary.classes[index(tile.tileClass)];
     if (tileClass.numPoints == 0) return;
     visit.tile = tileIndex;
-    visit.value = tile.firstValue;
-    visit.hasNormals = needsSubdivided && tile.pattern != kZeroEverywhere;
-    visit.leafBlend = nullptr;
-    visit.blend = tile.pattern == kOneEverywhere ? LeafBlend::One : LeafBlend::Zero;
-    if (tile.pattern >= 0) {
-        BlendPattern const& pattern = data->patterns[index(tile.pattern)];
-        visit.leafBlend = data->leafBlends.data() + pattern.firstLeaf;
-        visit.weight = pattern.firstWeight;
-    }
+    startVisit(tile, visit);
 
     Place place;
     place.points = visit.worker->local.data();
     int const* const vertices = data->vertices.data() + tile.firstVertex;
     // Relative to their middle, so that a tile keeps its digits wherever it lies.
-    Vec3<float> sum{};
-    for (int i = 0; i < tileClass.numSources; ++i) sum += visit.controlPoints[index(vertices[i])];
-    Vec3<float> const origin = (1.0f / static_cast<float>(tileClass.numSources)) * sum;
+    float const* const control = visit.controlPoints.data();
+    std::size_t const stride = visit.controlPoints.stride();
+    LocalPoint sum{{0, 0, 0, 0}};
     for (int i = 0; i < tileClass.numSources; ++i) {
-        Vec3<float> const p = visit.controlPoints[index(vertices[i])];
-        place.points[i] = {{p.x - origin.x, p.y - origin.y, p.z - origin.z, 0}};
+        float const* const p = control + index(vertices[i]) * stride;
+        place.points[i] = {{p[0], p[1], p[2], 0}};
+        sum = sum + place.points[i];
     }
-    place.origin[0] = origin.x;
-    place.origin[1] = origin.y;
-    place.origin[2] = origin.z;
+    auto const isFinite = [](LocalPoint const& p) {
+        return std::isfinite(p.v[0]) && std::isfinite(p.v[1]) && std::isfinite(p.v[2]);
+    };
+    bool const isClean = isFinite(sum);
+    LocalPoint origin{{0, 0, 0, 0}};
+    for (int axis = 0; axis < 3; ++axis) {
+        origin.v[axis] = sum.v[axis] / static_cast<float>(tileClass.numSources);
+        if (!isClean) origin.v[axis] = 0;
+        place.origin[axis] = origin.v[axis];
+    }
+    for (int i = 0; i < tileClass.numSources; ++i) {
+        place.points[i] =
+            isClean || isFinite(place.points[i]) ? place.points[i] - origin : LocalPoint{{0, 0, 0, 0}};
+    }
     place.normals = place.points + tileClass.numSources + tileClass.pointRows.NumRows();
     place.free = place.normals;
     if (visit.hasNormals) {
@@ -279,6 +288,31 @@ void ShadingEvaluator::Impl::evaluateTile(int tileIndex, Visit& visit) {
     }
     if (!tileClass.isNgon) place.frame = frameOfRotation(tile.rotation, tileClass.size == 3);
     evaluateClass(tile.tileClass, place, visit);
+    if (isClean) return;
+
+    // Once more with marks in place of points: what a number that is not finite has a weight in is no number
+    // either. (A weight of zero would have made one of it.)
+    for (int i = 0; i < tileClass.numSources; ++i) {
+        float const* const p = control + index(vertices[i]) * stride;
+        bool const isBad = !isFinite({{p[0], p[1], p[2], 0}});
+        place.points[i] = {{isBad ? 1 + static_cast<float>(i) / 64 : 0, 0, 0, 0}};
+    }
+    startVisit(tile, visit);
+    visit.hasNormals = false;
+    visit.isMarking = true;
+    evaluateClass(tile.tileClass, place, visit);
+    visit.isMarking = false;
+}
+
+void ShadingEvaluator::Impl::startVisit(Tile const& tile, Visit& visit) const {
+    visit.value = tile.firstValue;
+    visit.hasNormals = needsSubdivided && tile.pattern != kZeroEverywhere;
+    visit.leafBlend = nullptr;
+    visit.blend = tile.pattern == kOneEverywhere ? LeafBlend::One : LeafBlend::Zero;
+    if (tile.pattern < 0) return;
+    BlendPattern const& pattern = data->patterns[index(tile.pattern)];
+    visit.leafBlend = data->leafBlends.data() + pattern.firstLeaf;
+    visit.weight = pattern.firstWeight;
 }
 
 void ShadingEvaluator::Impl::evaluateClass(int classIndex, Place const& place, Visit& visit) {
@@ -343,6 +377,7 @@ void ShadingEvaluator::Impl::evaluateSplit(TileClass const& c, Place const& plac
             inner.origin[axis] = static_cast<float>(exact);
             shift.v[axis] = middle - static_cast<float>(exact - double{inner.origin[axis]});
         }
+        if (visit.isMarking) shift = {{0, 0, 0, 0}};
         for (std::size_t j = 0; j < child.pointIndices.size(); ++j) {
             inner.points[j] = place.points[child.pointIndices[j]] - shift;
         }
@@ -459,6 +494,10 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
     if (visit.leafBlend) ++visit.leafBlend;
     if (blend == LeafBlend::Mixed) visit.weight += index(numPoints);
     if (numPoints == 0) return;
+    if (visit.isMarking) {
+        spoil(numPoints, value, weight, hasTangents, blend, worker);
+        return;
+    }
 
     if (needsTangents) {
         Frame2 const& f = place.frame;
@@ -555,6 +594,28 @@ bool findAverage(AverageNormals const& averages, int point, LocalPoint const* po
 }
 
 }  // namespace
+
+/// Overwrites what depends on a number that is not finite. Start normals leave out faces without a normal, so N_S
+/// does not.
+void ShadingEvaluator::Impl::spoil(int numPoints, std::size_t value, std::size_t weight, bool hasTangents,
+                                   LeafBlend blend, Worker const& worker) const {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t i = 0; i < index(numPoints); ++i) {
+        std::size_t const target = data->orderOfValues.empty() ? value + i : index(data->orderOfValues[value + i]);
+        auto const overwrite = [&](OutputKind kind) {
+            if (vectors[kind].data == nullptr) return;
+            std::fill_n(vectors[kind].data + target * vectors[kind].stride, 3, kNan);
+        };
+        if (worker.position.x[i] != 0) overwrite(kPositions);
+        if (!hasTangents || (worker.tangent1.x[i] == 0 && worker.tangent2.x[i] == 0)) continue;
+        overwrite(kLimit);
+        overwrite(kDu);
+        overwrite(kDv);
+        bool const isOne =
+            blend == LeafBlend::One || (blend == LeafBlend::Mixed && data->blendPowers[weight + i] == 1);
+        if (!isOne) overwrite(kBlended);
+    }
+}
 
 void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass, Place const& place, int firstValue,
                                     Visit& visit) {

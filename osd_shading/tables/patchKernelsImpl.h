@@ -271,6 +271,10 @@ private:
                 } else {
                     alignas(16) float single[4];
                     q[c].Store(single);
+                    if (shift == 2) {
+                        for (int k = 0; k < 4; ++k) Quad::Broadcast(single + k).Store(to + 4 * k);
+                        continue;
+                    }
                     for (int k = 0; k < 4; ++k) {
                         for (int n = 0; n < 1 << shift; n += 4) {
                             Quad::Broadcast(single + k).Store(to + (k << shift) + n);

@@ -76,10 +76,13 @@ std::int64_t StartFrame::Compute(PointView<float> controlPoints, PointView<float
     });
     for (std::size_t segment = 1; segment < program.rowSegments.size(); ++segment) {
         forChunks(threads, program.rowSegments[segment - 1], program.rowSegments[segment], [&](int begin, int end) {
+            double const* const weights = program.pointWeights.data();
+            int const* const sources = program.pointSources.data();
             for (int row = begin; row < end; ++row) {
                 Vec3<double> sum{};
-                for (auto t = program.pointOffsets[index(row)]; t < program.pointOffsets[index(row) + 1]; ++t) {
-                    sum += program.pointWeights[t] * _points[index(program.pointSources[t])];
+                auto const last = program.pointOffsets[index(row) + 1];
+                for (auto t = program.pointOffsets[index(row)]; t < last; ++t) {
+                    sum += weights[t] * _points[index(sources[t])];
                 }
                 _points[index(numControl + row)] = sum;
             }
@@ -95,15 +98,44 @@ std::int64_t StartFrame::Compute(PointView<float> controlPoints, PointView<float
     };
     forChunks(threads, 0, static_cast<int>(_faceNormals.size()), [&](int begin, int end) {
         for (int f = begin; f < end; ++f) {
-            _faceNormals[index(f)] = UnitPolygonNormal<double>(sizeOf(f), [&](int i) { return pointOf(f, i); });
+            int const* const corners = program.facePoints.data() + program.faceOffsets[index(f)];
+            int const size = sizeOf(f);
+            if (size <= 4) {
+                // Twice the vector area is the product of two sides or of the diagonals; far from vanishing it
+                // needs no closer look.
+                bool const isQuad = size == 4;
+                Vec3<double> const* const points = _points.data();
+                Vec3<double> const a = points[corners[isQuad ? 2 : 1]] - points[corners[0]];
+                Vec3<double> const b = points[corners[isQuad ? 3 : 2]] - points[corners[isQuad ? 1 : 0]];
+                Vec3<double> const area = Cross(a, b);
+                double const squared = Dot(area, area);
+                constexpr double kClear = 1e-8, kSmallest = 1e-200;
+                if (squared > kClear * Dot(a, a) * Dot(b, b) && squared > kSmallest) {
+                    _faceNormals[index(f)] = 1 / std::sqrt(squared) * area;
+                    continue;
+                }
+            }
+            _faceNormals[index(f)] = UnitPolygonNormal<double>(size, [&](int i) { return pointOf(f, i); });
         }
     });
     FaceWeight const weight = FaceWeightOf(_data.options.startNormals.kind);
     forChunks(threads, 0, program.numNormals, [&](int begin, int end) {
         std::int64_t zero = 0;
         for (int i = begin; i < end; ++i) {
+            int const first = program.valueOffsets[index(i)], last = program.valueOffsets[index(i) + 1];
+            if (weight == FaceWeight::Uniform) {
+                // Far from vanishing it does not matter how many faces had a normal.
+                Vec3<double> sum{};
+                for (int c = first; c < last; ++c) sum += _faceNormals[index(program.valueFaces[index(c)])];
+                double const squared = Dot(sum, sum);
+                constexpr double kClear = 1e-12;
+                if (squared > kClear * (last - first) * (last - first)) {
+                    store(1 / std::sqrt(squared) * sum, normals[index(i)]);
+                    continue;
+                }
+            }
             NormalSum<double> sum;
-            for (int c = program.valueOffsets[index(i)]; c < program.valueOffsets[index(i) + 1]; ++c) {
+            for (int c = first; c < last; ++c) {
                 int const face = program.valueFaces[index(c)];
                 double own = 1;
                 if (weight != FaceWeight::Uniform) {
