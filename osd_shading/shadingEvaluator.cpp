@@ -37,14 +37,14 @@ constexpr float kDenseDoubt = 1.0f / 256, kSplineDoubt = 1.0f / 64;
 void checkSpan(char const* name, float const* data, std::size_t count, std::size_t stride, std::size_t width,
                std::size_t wanted) {
     if (data == nullptr && count == 0) return;
-    std::string const what = name;
+    auto const what = [&] { return std::string(name); };  // made where it is thrown: a frame allocates nothing
     if (count != wanted) {
-        throw InvalidOptions(what + " has room for " + std::to_string(count) + " elements; the table has " +
+        throw InvalidOptions(what() + " has room for " + std::to_string(count) + " elements; the table has " +
                              std::to_string(wanted) + " values");
     }
-    if (data == nullptr && count > 0) throw InvalidOptions(what + ": its pointer is null");
+    if (data == nullptr && count > 0) throw InvalidOptions(what() + ": its pointer is null");
     if (stride < width) {
-        throw InvalidOptions(what + ": its stride is " + std::to_string(stride) + "; give " +
+        throw InvalidOptions(what() + ": its stride is " + std::to_string(stride) + "; give " +
                              std::to_string(width) + " or more");
     }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -25,6 +26,16 @@ void checkOptions(ShadingOptions const& options) {
     if (options.subdividedNormals.averaging != NormalAveraging::Linear) {
         throw InvalidOptions("a table holds linear averaging of normals only; use ShadeSubdivision for the others");
     }
+}
+
+/// Refuses what int can't number, before any work. `numFaceCorners`: of the control mesh.
+void checkSize(std::int64_t numFaces, std::int64_t numFaceCorners, Sdc::SchemeType scheme, int level) {
+    double const first = static_cast<double>(scheme == Sdc::SCHEME_CATMARK ? numFaceCorners : 4 * numFaces);
+    double const count = level == 0 ? static_cast<double>(numFaces) : first * std::pow(4.0, level - 1);
+    if (count <= std::numeric_limits<int>::max()) return;
+    throw MemoryLimitExceeded("level " + std::to_string(level) +
+                                  " has more faces than 32-bit indices can number; use a lower level",
+                              static_cast<std::uint64_t>(count) * 4 * sizeof(int));
 }
 
 int levelsForStart(ShadingOptions const& options) { return options.startNormals.level; }
@@ -151,6 +162,8 @@ ShadingTable::ShadingTable(ControlMesh const& mesh, ShadingOptions const& option
     ValidateControlMesh(mesh);
     ShadingOptions const resolved = ResolveOptions(options, mesh);
     checkOptions(resolved);
+    checkSize(static_cast<std::int64_t>(mesh.faceSizes.size()), static_cast<std::int64_t>(mesh.faceVertices.size()),
+              mesh.rules.scheme, resolved.level);
     RefinedTopology const topology(mesh, levelsForStart(resolved));
     _data = build(topology, resolved, order);
 }
@@ -159,6 +172,8 @@ ShadingTable::ShadingTable(Far::TopologyRefiner const& refiner, ShadingOptions c
     ValidateRefiner(refiner);
     ShadingOptions const resolved = ResolveOptions(options, refiner);
     checkOptions(resolved);
+    Far::TopologyLevel const base = refiner.GetLevel(0);
+    checkSize(base.GetNumFaces(), base.GetNumFaceVertices(), refiner.GetSchemeType(), resolved.level);
     RefinedTopology const topology(refiner, levelsForStart(resolved));
     _data = build(topology, resolved, order);
 }

@@ -224,6 +224,12 @@ TEST(CommandLine, RefusesBadValuesInOneLineThatNamesTheOption) {
         {{"--memory-limit", "99999999999T"}, "--memory-limit"},
         {{"--start-normals", "file", "--normals-from", "1"}, "--normals-from"},
         {{"--colour", "red"}, "--colour"},
+        {{"--frames", "0"}, "--frames: '0'"},
+        {{"--frames", "1000001"}, "--frames"},
+        {{"--frames", "2", "--deform", "melt"}, "--deform: 'melt' is not one of bend|twist|wave"},
+        {{"--deform", "bend"}, "--deform: there are no frames"},
+        {{"--frames", "2", "--averaging", "spherical"}, "--averaging"},
+        {{"--stats", "--averaging", "renormalised"}, "--averaging"},
         {{"another.obj"}, "another.obj"},
         {{"--ascii"}, "--ascii"},
         {{"--cage"}, "--cage"},
@@ -256,7 +262,8 @@ TEST(CommandLine, PrintsHelpWithEveryOptionAndTheVersion) {
                                "--crease-angle",    "--crease-scale", "--precision",    "--triangles",
                                "--spherical-steps", "--threads",      "--check",        "--tolerance",
                                "--ascii",           "--cage",         "--report",       "--quiet",
-                               "--memory-limit",    "--version"}) {
+                               "--memory-limit",    "--frames",       "--deform",       "--stats",
+                               "--version"}) {
         EXPECT_NE(help.out.find(option), std::string::npos) << option;
     }
     Outcome const version = RunTool({"--version"});
@@ -455,6 +462,52 @@ TEST(Report, IsTheSameForAnyNumberOfThreadsButForTimeAndMemory) {
         report->erase("peak_bytes");
     }
     EXPECT_EQ(one, two);
+}
+
+TEST(Frames, AreTimedAndTheirTableIsCounted) {
+    for (char const* deform : {"bend", "twist", "wave"}) {
+        json const report = ReportOf({ModelPath("mug"), "--level", "3", "--frames", "5", "--deform", deform});
+        json const& frames = report["frames"];
+        EXPECT_EQ(frames["count"], 5);
+        EXPECT_EQ(frames["deform"], deform);
+        EXPECT_GE(frames["threads"], 1);
+        EXPECT_FALSE(frames["instruction_set"].get<std::string>().empty());
+        EXPECT_GT(frames["ms_min"], 0.0);
+        EXPECT_LE(frames["ms_min"], frames["ms_median"]);
+        EXPECT_NEAR(frames["ns_per_value_min"].get<double>(),
+                    1e6 * frames["ms_min"].get<double>() / report["values"].get<double>(), 1e-6);
+        EXPECT_LE(frames["ns_per_value_min"], frames["ns_per_value_median"]);
+        EXPECT_EQ(frames["zero_start_normals"], 0);
+        EXPECT_TRUE(frames["fallback_normals"].is_number_integer());
+
+        json const& table = report["table"];
+        EXPECT_EQ(table["values"], report["values"]);
+        EXPECT_EQ(table["faces"], report["faces"]);
+        for (char const* key : {"tiles", "classes", "blended_tiles", "blended_values", "dense_matrices",
+                                "start_normals", "bytes", "dictionary_bytes"}) {
+            EXPECT_GT(table[key], 0) << key;
+        }
+        EXPECT_LE(table["regular_tiles"], table["tiles"]);
+        EXPECT_GT(table["build_seconds"], 0.0);
+    }
+    EXPECT_EQ(ReportOf({ModelPath("mug"), "--frames", "1", "--threads", "2"})["frames"]["threads"], 2);
+    json const normals =
+        ReportOf({ModelPath("cube_dart"), "--frames", "1", "--scheme", "catmark", "--preset", "smooth"});
+    EXPECT_EQ(normals["table"]["blended_values"], normals["values"]);
+}
+
+TEST(Frames, StatsAloneBuildTheTable) {
+    json const report = ReportOf({ModelPath("ring"), "--stats"});
+    EXPECT_TRUE(report["frames"].is_null());
+    EXPECT_EQ(report["table"]["values"], report["values"]);
+    json const plain = ReportOf({ModelPath("ring")});
+    EXPECT_TRUE(plain["table"].is_null());
+    EXPECT_TRUE(plain["frames"].is_null());
+    Outcome const printed = RunTool({ModelPath("ring"), "--stats", "--frames", "2", "--threads", "1"});
+    for (char const* part :
+         {"classes", "tiles", "support", "bytes a value", "2, bend, 1 thread", "median", "least"}) {
+        EXPECT_NE(printed.out.find(part), std::string::npos) << part << " is not in\n" << printed.out;
+    }
 }
 
 TEST(Check, PassesOnAllOurModelsInBothPrecisions) {

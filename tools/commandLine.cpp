@@ -39,6 +39,8 @@ struct GivenOptions {
     std::optional<PositionKind> positions;
     std::optional<Sdc::SchemeType> scheme;
     std::optional<Precision> precision;
+    std::optional<int> frames;
+    std::optional<DeformationKind> deformation;
 };
 
 [[noreturn]] void Refuse(std::string const& option, std::string const& text) {
@@ -215,6 +217,18 @@ void AddRunOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
         ->group(kGroup);
 }
 
+void AddFrameOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
+    static constexpr char kGroup[] = "Moving meshes";
+    AddNumber(
+        app, "--frames", given.frames, "a whole number from 1 to 1000000",
+        [](int x) { return x >= 1 && x <= 1000000; },
+        "Build a table too, and time this many frames of the moving model, in float")
+        ->group(kGroup);
+    AddChoice(app, "--deform", given.deformation, kDeformationNames, "How --frames moves it (default bend)")
+        ->group(kGroup);
+    app.add_flag("--stats", line.stats, "Build a table too, and say what it holds")->group(kGroup);
+}
+
 template <typename T>
 void Replace(T& value, std::optional<T> const& given) {
     if (given) value = *given;
@@ -282,6 +296,7 @@ std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
     AddMeshOptions(app, line, given);
     AddShadingOptions(app, given);
     AddRunOptions(app, line, given);
+    AddFrameOptions(app, line, given);
     try {
         app.parse(argc, argv);
     } catch (CLI::Success const& success) {
@@ -295,6 +310,13 @@ std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
     Replace(line.precision, given.precision);
     line.tolerance = given.tolerance.value_or(line.precision == Precision::Double ? 1e-12 : 1e-6);
     line.shading = ResolveShading(given);
+
+    Replace(line.numFrames, given.frames);
+    Replace(line.deformation, given.deformation);
+    if (given.deformation && !given.frames) Refuse("--deform", "there are no frames; give --frames their number");
+    if ((line.stats || given.frames) && line.shading.subdividedNormals.averaging != NormalAveraging::Linear) {
+        Refuse("--averaging", "tables, which --frames and --stats build, hold linear averaging only");
+    }
 
     if (app.count("-o") > 0) {
         line.format = FormatOf(line.outputFile);

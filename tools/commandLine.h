@@ -45,6 +45,10 @@ struct CommandLine {
     bool check = false;
     double tolerance = 0;  ///< of the check: share of the model's size
 
+    int numFrames = 0;  ///< to be timed; 0: none
+    DeformationKind deformation = DeformationKind::Bend;
+    bool stats = false;  ///< what a table holds
+
     std::string reportFile;  ///< empty: none
     bool quiet = false;
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "deformation.h"
 #include "osd_shading/controlMesh.h"
 #include "osd_shading/shadingOptions.h"
 
@@ -66,6 +67,9 @@ inline constexpr OptionNames<Sdc::Options::TriangleSubdivision, 2> kTriangleName
 
 inline constexpr OptionNames<Precision, 2> kPrecisionNames = {
     {{"float", Precision::Float}, {"double", Precision::Double}}};
+
+inline constexpr OptionNames<DeformationKind, 3> kDeformationNames = {
+    {{"bend", DeformationKind::Bend}, {"twist", DeformationKind::Twist}, {"wave", DeformationKind::Wave}}};
 
 /// The word for `value`, or an empty one.
 template <typename T, std::size_t N>

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "commandLine.h"
+#include "frameTimes.h"
 #include "memory.h"
 #include "osd_shading/geometryCheck.h"
 #include "osd_shading/io/creaseEdits.h"
@@ -29,6 +30,7 @@
 #include "osd_shading/io/plyWriter.h"
 #include "osd_shading/io/sharpReader.h"
 #include "osd_shading/io/usdWriter.h"
+#include "osd_shading/shadingTable.h"
 #include "osd_shading/subdivisionShading.h"
 #include "outputTarget.h"
 #include "progressBar.h"
@@ -171,12 +173,16 @@ RunInput<Real> MakeInput(CommandLine const& line, io::Model const& model) {
     return run;
 }
 
+// Three quarters: estimates count what is allocated, not what the allocator and the system add.
+std::uint64_t MemoryLimit(CommandLine const& line) {
+    std::uint64_t const free = FreeMemory();
+    return line.memoryLimit.value_or(free - free / 4);
+}
+
 template <typename Real>
 ShadingResult<Real> Shade(CommandLine const& line, ControlMesh const& mesh, ShadingInput<Real> const& input) {
     ShadingOptions options = line.shading;
-    // Three quarters: the estimate counts what is allocated, not what the allocator and the system add.
-    std::uint64_t const free = FreeMemory();
-    options.execution.memoryLimit = line.memoryLimit.value_or(free - free / 4);
+    options.execution.memoryLimit = MemoryLimit(line);
 
     ProgressBar bar(!line.quiet);
     if (bar.IsEnabled()) {
@@ -190,6 +196,20 @@ ShadingResult<Real> Shade(CommandLine const& line, ControlMesh const& mesh, Shad
     } catch (InvalidControlMesh const& error) {
         throw io::ParseError(line.modelFile, 0, error.what());  // the library knows no files
     }
+}
+
+// Builds a table of the same mesh, and times frames where they are wanted.
+void RunFrames(CommandLine const& line, io::Model const& model, ControlMesh const& mesh, RunSummary& run) {
+    RunInput<float> const input = MakeInput<float>(line, model);
+    ShadingOptions options = line.shading;
+    options.execution.memoryLimit = MemoryLimit(line);
+    ShadingTable const table = Timed(run.seconds, "table", [&] { return ShadingTable(mesh, options); });
+    run.table = table.Stats();
+    if (line.numFrames == 0) return;
+    run.frames = Timed(run.seconds, "frames", [&] {
+        return MeasureFrames(table, input.input.positions, input.input.faceVaryingNormals, line.deformation,
+                             line.numFrames, line.shading.execution.numThreads);
+    });
 }
 
 template <typename Real>
@@ -271,6 +291,9 @@ int Run(CommandLine const& line) {
         run.check = Timed(run.seconds, "geometry check",
                           [&] { return CheckGeometry(mesh, input.input.positions, result); });
     }
+
+    // The same mesh as it moves.
+    if (line.stats || line.numFrames > 0) RunFrames(line, model, mesh, run);
 
     // Write it, and say what was done.
     if (line.format != OutputFormat::None) {

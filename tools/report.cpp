@@ -3,6 +3,7 @@
 
 #include <opensubdiv/version.h>
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <map>
@@ -119,6 +120,70 @@ Json OptionsJson(CommandLine const& line, RunSummary const& run) {
             {"precision", NameOf(kPrecisionNames, line.precision)}};
 }
 
+Json TableJson(ShadingTableStats const& stats) {
+    return {{"values", stats.values},
+            {"faces", stats.faces},
+            {"tiles", stats.tiles},
+            {"regular_tiles", stats.regularTiles},
+            {"blended_tiles", stats.blendedTiles},
+            {"blended_values", stats.blendedValues},
+            {"classes", stats.classes},
+            {"dense_matrices", stats.denseMatrices},
+            {"start_normals", stats.startNormals},
+            {"bytes", stats.bytes},
+            {"dictionary_bytes", stats.dictionaryBytes},
+            {"build_seconds", stats.buildSeconds}};
+}
+
+double NanosecondsPerValue(RunSummary const& run, double seconds) {
+    return 1e9 * seconds / static_cast<double>(std::max<std::int64_t>(run.table->values, 1));
+}
+
+Json FramesJson(RunSummary const& run) {
+    FrameTimes const& frames = *run.frames;
+    return {{"count", frames.numFrames},
+            {"deform", NameOf(kDeformationNames, frames.deformation)},
+            {"threads", frames.numThreads},
+            {"instruction_set", frames.instructionSet},
+            {"ms_median", 1e3 * frames.medianSeconds},
+            {"ms_min", 1e3 * frames.leastSeconds},
+            {"ns_per_value_median", NanosecondsPerValue(run, frames.medianSeconds)},
+            {"ns_per_value_min", NanosecondsPerValue(run, frames.leastSeconds)},
+            {"fallback_normals", frames.worst.fallbackNormals},
+            {"zero_start_normals", frames.worst.zeroStartNormals}};
+}
+
+void AddTableRows(RunSummary const& run, Table& table) {
+    ShadingTableStats const& stats = *run.table;
+    double const values = static_cast<double>(std::max<std::int64_t>(stats.values, 1));
+    table.Add("table",
+              BytesText(stats.bytes) + Format(", %.3g bytes a value, built in %.4f s",
+                                              static_cast<double>(stats.bytes) / values, stats.buildSeconds));
+    table.Add("  tiles", CountText(stats.tiles) + " (" + CountText(stats.regularTiles) + " regular, " +
+                             CountText(stats.blendedTiles) + " blended)");
+    table.Add("  classes", CountText(stats.classes) + ", " + CountText(stats.denseMatrices) + " matrices, " +
+                               BytesText(stats.dictionaryBytes));
+    table.Add("  support", CountText(stats.blendedValues) +
+                               Format(" values, %.1f %%", 100 * static_cast<double>(stats.blendedValues) / values));
+    table.Add("  start normals", CountText(stats.startNormals));
+}
+
+void AddFrameRows(RunSummary const& run, Table& table) {
+    FrameTimes const& frames = *run.frames;
+    table.Add("frames", std::to_string(frames.numFrames) + ", " +
+                            std::string(NameOf(kDeformationNames, frames.deformation)) + ", " +
+                            std::to_string(frames.numThreads) +
+                            (frames.numThreads == 1 ? " thread, " : " threads, ") + frames.instructionSet);
+    auto const row = [&](double seconds) {
+        return Format("%.4g ms, %.3g ns a value", 1e3 * seconds, NanosecondsPerValue(run, seconds));
+    };
+    table.Add("  median", row(frames.medianSeconds));
+    table.Add("  least", row(frames.leastSeconds));
+    if (frames.worst.fallbackNormals > 0) {
+        table.Add("  fallback normals", "up to " + CountText(frames.worst.fallbackNormals));
+    }
+}
+
 // A stage's name as a key: "blend weights" is blend_weights.
 std::string StageKey(std::string const& stage) {
     std::string key;
@@ -174,6 +239,8 @@ std::string TableText(CommandLine const& line, RunSummary const& run) {
         }
     }
 
+    if (run.table) AddTableRows(run, table);
+    if (run.frames) AddFrameRows(run, table);
     table.Add("seconds", Format("%.3f", TotalSeconds(run)));
     for (auto const& [stage, seconds] : run.seconds) table.Add("  " + stage, Format("%.3f", seconds));
     table.Add("peak memory", run.peakBytes == 0 ? "unknown" : BytesText(run.peakBytes));
@@ -220,6 +287,8 @@ std::string JsonText(CommandLine const& line, RunSummary const& run) {
                                : Json({run.maxAnglePosition.x, run.maxAnglePosition.y, run.maxAnglePosition.z});
 
     json["check"] = run.check ? CheckJson(*run.check, line.tolerance) : Json();
+    json["table"] = run.table ? TableJson(*run.table) : Json();
+    json["frames"] = run.frames ? FramesJson(run) : Json();
     json["seconds"] = Json::object();
     for (auto const& [stage, seconds] : run.seconds) json["seconds"][StageKey(stage)] = seconds;
     json["seconds"]["total"] = TotalSeconds(run);

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "commandLine.h"
+#include "frameTimes.h"
 #include "osd_shading/geometryCheck.h"
 #include "osd_shading/shadingResult.h"
+#include "osd_shading/shadingTable.h"
 
 namespace osd_shading::tool {
 
@@ -23,6 +25,8 @@ struct RunSummary {
     Vec3<double> maxAnglePosition;
 
     std::optional<GeometryCheck> check;
+    std::optional<ShadingTableStats> table;  ///< with --frames and --stats
+    std::optional<FrameTimes> frames;
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time of each stage, in order
     std::uint64_t peakBytes = 0;
 };

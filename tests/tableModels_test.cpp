@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// Shading tables on models as they come: every frame beside the one-shot path in double.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "osd_shading/io/objReader.h"
+#include "tests/ioFiles.h"
+#include "tests/sampleSize.h"
+#include "tests/tableAgreement.h"
+
+namespace osd_shading::tests {
+namespace {
+
+struct Case {
+    io::Model model;
+    std::vector<float> points;
+    SubdivisionRules rules;
+    int firstLevel = 0;  // 1 where there are faces of another size: they have no limits at level 0
+
+    ControlMesh Mesh() const { return model.Mesh(rules); }
+    std::string Name() const { return model.name + (rules.scheme == Sdc::SCHEME_LOOP ? ", loop" : ", catmark"); }
+};
+
+/// A model in each scheme that takes it; none where the library refuses it (a face that names a vertex twice).
+std::vector<Case> CasesOf(std::string const& file) {
+    std::vector<Case> cases;
+    io::Model model;
+    try {
+        model = io::ReadObj(file);
+    } catch (Error const&) {
+        return cases;
+    }
+    for (Sdc::SchemeType const scheme : {Sdc::SCHEME_CATMARK, Sdc::SCHEME_LOOP}) {
+        SubdivisionRules rules;
+        rules.scheme = scheme;
+        rules = model.Rules(rules);
+        int const regular = scheme == Sdc::SCHEME_LOOP ? 3 : 4;
+        bool const isRegular =
+            std::all_of(model.faceSizes.begin(), model.faceSizes.end(), [&](int size) { return size == regular; });
+        if (scheme == Sdc::SCHEME_LOOP && !isRegular) continue;
+        try {
+            ValidateControlMesh(model.Mesh(rules));
+        } catch (InvalidControlMesh const&) {
+            continue;
+        }
+        cases.push_back({model, {model.positions.begin(), model.positions.end()}, rules, isRegular ? 0 : 1});
+    }
+    return cases;
+}
+
+/// Rounding of float coordinates, some units in the last place, of the model's size; and of normals.
+constexpr double kPositions = 2e-7, kNormals = 1e-5;
+
+/// The figures of one comparison, which a full run prints.
+void ExpectAgreement(Case const& c, ShadingOptions const& options, std::string const& what) {
+    ShadingTable const table(c.Mesh(), options);
+    TableFrame const frame = EvaluateAll(table, {c.points.data(), c.points.size() / 3});
+    Reference const reference = ReferenceOf(c.Mesh(), c.points, options);
+    Agreement const agreement = Compare(frame, table.ResultValues(), reference);
+    std::string const name = c.Name() + ", level " + std::to_string(options.level) + ", " + what;
+    EXPECT_TRUE(agreement.isNumbered) << name;
+    EXPECT_LE(agreement.position, kPositions) << name;
+    EXPECT_LE(agreement.normal, kNormals) << name << ": " << agreement.worst;
+    EXPECT_EQ(agreement.supportDiffers, 0) << name;
+    EXPECT_LE(agreement.weight, 1e-6) << name;
+    if (IsFullRun()) {
+        std::printf("%s: positions %.2g, normals %.2g (%s), %lld fallbacks of %d\n", name.c_str(),
+                    agreement.position, agreement.normal, agreement.worst.c_str(),
+                    static_cast<long long>(frame.report.fallbackNormals), table.NumValues());
+    }
+}
+
+/// CI: levels 0 to 3 of all, and 4 and 5 where that makes no more than 60,000 faces. A full run: all to level 5.
+int LastLevel(io::Model const& model) {
+    constexpr std::size_t kFaces = 60000;
+    int level = IsSanitizerRun() ? 2 : 3;
+    std::size_t faces = model.faceVertices.size() << (2 * level);
+    while (level < 5 && !IsSanitizerRun() && (IsFullRun() || faces * 4 <= kFaces)) {
+        ++level;
+        faces *= 4;
+    }
+    return level;
+}
+
+void ExpectAgreementOnAll(std::vector<std::string> const& files) {
+    for (std::string const& file : files) {
+        for (Case const& c : CasesOf(file)) {
+            for (int level = c.firstLevel; level <= LastLevel(c.model); ++level) {
+                ExpectAgreement(c, PaperPreset(level), "paper");
+                if (level == 3) ExpectAgreement(c, SmoothPreset(level), "smooth");
+            }
+        }
+    }
+}
+
+std::vector<std::string> OwnModels() {
+    std::vector<std::string> files;
+    for (auto const& entry : std::filesystem::directory_iterator(OSD_SHADING_MODELS)) {
+        if (entry.path().extension() == ".obj") files.push_back(entry.path().string());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+TEST(TableModels, OursAgreeWithTheOneShotPath) { ExpectAgreementOnAll(OwnModels()); }
+
+TEST(TableModels, SharedOnesAgreeWithTheOneShotPath) {
+    std::vector<std::string> const files = ioFiles::SharedModels();
+    if (files.empty()) GTEST_SKIP() << ioFiles::kNoSharedModels;
+    ExpectAgreementOnAll(files);
+}
+
+}  // namespace
+}  // namespace osd_shading::tests
