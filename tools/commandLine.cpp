@@ -8,8 +8,6 @@
 #include <limits>
 #include <string_view>
 
-#include "outputTarget.h"
-
 #define OSD_SHADE_TEXT_(x) #x
 #define OSD_SHADE_TEXT(x) OSD_SHADE_TEXT_(x)
 

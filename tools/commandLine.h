@@ -7,10 +7,9 @@
 
 #include "methodOptions.h"
 #include "osd_shading/shadingOptions.h"
+#include "outputTarget.h"
 
 namespace osd_shading::tool {
-
-enum class OutputFormat { None, Ply, Obj, Usda };
 
 /// What the user asks for, checked as far as that goes without reading a file.
 struct CommandLine : MeshOptions {
