@@ -37,6 +37,8 @@ struct Camera {
 
     /// As text that one can paste: orbit?yaw=35&pitch=22&distance=4&target=0,0,0&fov=30
     std::string Text() const;
+
+    bool operator==(Camera const&) const = default;
 };
 
 /// What was asked for on the command line or typed: a whole camera, or a direction only.

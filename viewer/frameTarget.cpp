@@ -57,11 +57,12 @@ void FrameTarget::resolve() const {
     glBlitFramebuffer(0, 0, _size.x, _size.y, 0, 0, _size.x, _size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void FrameTarget::Show() const {
+void FrameTarget::Show(glm::ivec2 corner) const {
     resolve();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, _resolved.Id());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, _size.x, _size.y, 0, 0, _size.x, _size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, _size.x, _size.y, corner.x, corner.y, corner.x + _size.x, corner.y + _size.y,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 

@@ -17,8 +17,8 @@ public:
     glm::ivec2 Size() const { return _size; }
     /// Makes it the target of drawing.
     void Bind() const;
-    /// Resolves, and copies to the window's framebuffer.
-    void Show() const;
+    /// Resolves, and copies to the window's framebuffer, with its lower left corner to `corner`.
+    void Show(glm::ivec2 corner) const;
     Image Read() const;
 
 private:

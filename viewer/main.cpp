@@ -21,6 +21,7 @@
 #include "outputTarget.h"
 #include "osd_shading/subdivisionShading.h"
 #include "sceneBuilder.h"
+#include "window.h"
 
 namespace osd_shading::viewer {
 
@@ -65,6 +66,7 @@ int Run(std::vector<std::string> const& words) {
     if (!line) return kSuccess;
     Far::SetWarningCallback(PrintOpenSubdivWarning);
     if (!line->imageFile.empty()) return MakeImage(*line);
+    RunWindow(*line);
     return kSuccess;
 }
 

@@ -106,6 +106,8 @@ struct ViewOptions {
         bool const needsPair = split != SplitKind::None || shading == ShadingMode::Difference;
         return needsPair ? left == choice || right == choice : normals == choice;
     }
+
+    bool operator==(ViewOptions const&) const = default;
 };
 
 }  // namespace osd_shading::viewer
