@@ -151,7 +151,8 @@ void Annotate(ImDrawList& list, ViewOptions const& view, ViewFacts const& facts,
         Legend legend(list, view, size, scale);
         AddLegends(legend, view, facts);
     }
-    float y = 8 * scale;
+    bool const hasLabels = ViewportsOf(view, size).size() > 1;
+    float y = 8 * scale + (hasLabels ? ImGui::GetTextLineHeight() + 6 * scale : 0);
     for (std::string const& line : lines) {
         list.AddText({10 * scale, y}, ToImGui(TextColor(view.background)), line.c_str());
         y += ImGui::GetTextLineHeight() + 2 * scale;

@@ -163,10 +163,12 @@ bool HandleKey(Workbench& bench, PanelState& state, int key, int modifiers) {
             return true;
         case GLFW_KEY_SPACE: TogglePlay(bench, state); return true;
         case GLFW_KEY_P: state.wantsScreenshot = true; return true;
-        case GLFW_KEY_M: state.isVisible = !state.isVisible; return true;
+        case GLFW_KEY_M:
+            state.isVisible = !state.isVisible;
+            state.hasKeyboard = false;
+            return true;
         case GLFW_KEY_TAB:
-            state.isVisible = true;
-            state.takesFocus = true;
+            state.isVisible = state.takesFocus = state.hasKeyboard = true;
             return true;
         default: return HandleViewKey(bench, state, key, isShifted);
     }

@@ -16,6 +16,7 @@
 #include "annotations.h"
 #include "builtInModels.h"
 #include "commandLine.h"
+#include "figures.h"
 #include "modelInput.h"
 #include "offscreen.h"
 #include "outputTarget.h"
@@ -66,6 +67,13 @@ int Run(std::vector<std::string> const& words) {
     if (!line) return kSuccess;
     Far::SetWarningCallback(PrintOpenSubdivWarning);
     if (!line->imageFile.empty()) return MakeImage(*line);
+    if (!line->figuresFolder.empty()) {
+        OffscreenContext const context;
+        for (std::string const& file : WriteFigures(line->figuresFolder, line->extraModels, line->scale)) {
+            std::puts(file.c_str());
+        }
+        return kSuccess;
+    }
     RunWindow(*line);
     return kSuccess;
 }

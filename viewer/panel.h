@@ -11,7 +11,8 @@ namespace osd_shading::viewer {
 /// What the panel and the keys change besides the workbench.
 struct PanelState {
     bool isVisible = true, showsHelp = false, showsHud = true, isPlaying = false;
-    bool takesFocus = false;      ///< the keyboard goes to the panel; reset when done
+    bool hasKeyboard = false;  ///< keys move in the panel
+    bool takesFocus = false;   ///< the panel is to be focused; reset when done
     bool wantsScreenshot = false, wantsFrame = false, wantsQuit = false;  ///< reset when done
     int screenshotMultiple = 1;
     double updateSeconds = 0, drawSeconds = 0;  ///< of the last frame, for display

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kVertexFloats = sizeof(SurfaceVertex) / sizeof(float);
 constexpr float kLift = 0.002F;  // of the scene's radius, at its centre: lines lie this far above the surface
+constexpr float kMarkLift = 15;  // times that: discs face the eye, and would dive into the surface
 
 GLint Location(GlProgram const& program, char const* name) { return glGetUniformLocation(program.Id(), name); }
 
@@ -98,7 +99,8 @@ struct Renderer::Frame {
 
 struct Renderer::LineStyle {
     float width, opacity;
-    bool isHidden;  // draws also what lies behind the surface
+    bool isHidden;     // draws also what lies behind the surface
+    float lift = 1;    // times that of the frame
 };
 
 Renderer::Renderer()
@@ -256,7 +258,7 @@ void Renderer::drawBatch(Frame const& frame, GlProgram const& program, Batch con
     SetMatrix(program, "view", frame.view);
     SetMatrix(program, "projection", frame.projection);
     glUniform2fv(Location(program, "viewport"), 1, glm::value_ptr(frame.viewport));
-    glUniform1f(Location(program, "lift"), frame.lift);
+    glUniform1f(Location(program, "lift"), frame.lift * style.lift);
     glUniform1f(Location(program, "near"), frame.near);
     glUniform1f(Location(program, "width"), style.width * frame.scale);
     glUniform1f(Location(program, "opacity"), style.opacity);
@@ -278,8 +280,8 @@ void Renderer::drawOverlays(Frame const& frame) {
     drawBatch(frame, _lineProgram, _creases, _surfacePoints, kVertexFloats, {3, 1, false});
     drawBatch(frame, _lineProgram, _selection, _surfacePoints, kVertexFloats, {5, 1, false});
     drawBatch(frame, _lineProgram, _arrows, _arrowPoints, 3, {3, 1, false});
-    drawBatch(frame, _markProgram, _marks, _surfacePoints, kVertexFloats, {16, 1, false});
-    drawBatch(frame, _markProgram, _selectionMarks, _surfacePoints, kVertexFloats, {12, 1, false});
+    drawBatch(frame, _markProgram, _marks, _surfacePoints, kVertexFloats, {16, 1, false, kMarkLift});
+    drawBatch(frame, _markProgram, _selectionMarks, _surfacePoints, kVertexFloats, {12, 1, false, kMarkLift});
 }
 
 void Renderer::Draw(std::shared_ptr<Scene const> const& scene, Camera const& camera, ViewOptions const& view,

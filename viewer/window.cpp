@@ -88,7 +88,6 @@ public:
         ImGui::CreateContext();
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
-        io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
         ImFontConfig font;
         font.SizePixels = std::round(13 * letterScale);
         io.Fonts->AddFontDefault(&font);
@@ -218,12 +217,13 @@ private:
         touch();
         if (action == GLFW_RELEASE) return;
         ImGuiIO const& io = ImGui::GetIO();
-        if (key == GLFW_KEY_ESCAPE && io.WantCaptureKeyboard && !io.WantTextInput) {
-            _dropsFocus = true;
+        bool const leavesPanel = key == GLFW_KEY_ESCAPE && _panel.hasKeyboard && !io.WantTextInput;
+        if (leavesPanel) {
+            _panel.hasKeyboard = false;
             return;
         }
-        // A focused panel has the keys that move in it; chords and function keys still do what they do.
-        bool const isForPanel = io.WantTextInput || (io.WantCaptureKeyboard && !(modifiers & GLFW_MOD_CONTROL));
+        // A panel that has the keyboard takes the keys that move in it; chords still do what they do.
+        bool const isForPanel = io.WantTextInput || (_panel.hasKeyboard && !(modifiers & GLFW_MOD_CONTROL));
         if (!isForPanel) HandleKey(_bench, _panel, key, modifiers);
     }
 
@@ -399,7 +399,10 @@ private:
         ImGui_ImplOpenGL3_NewFrame();
         ImGui_ImplGlfw_NewFrame();
         ImGui::NewFrame();
-        if (std::exchange(_dropsFocus, false)) ImGui::SetWindowFocus(nullptr);
+        // The keyboard belongs to the scene until the panel is asked for.
+        ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
+        flags = _panel.hasKeyboard ? flags | ImGuiConfigFlags_NavEnableKeyboard
+                                   : flags & ~ImGuiConfigFlags_NavEnableKeyboard;
         DrawPanels(_bench, _panel, _size, _unitScale);
         hover();
         ImGui::Render();
@@ -450,7 +453,7 @@ private:
     glm::vec2 _cursor{0}, _dragStart{0};
     Drag _drag = Drag::None;
     double _lastClick = 0;
-    bool _isHoverOld = false, _dropsFocus = false, _hasShownModel = false;
+    bool _isHoverOld = false, _hasShownModel = false;
     Clock::time_point _lastMovement = Clock::now();
     std::string _reported;
 };
