@@ -25,7 +25,10 @@ std::string Format(char const* format, Arguments... arguments) {
 class Legend {
 public:
     Legend(ImDrawList& list, ViewOptions const& view, glm::ivec2 size, float scale)
-        : _list(list), _view(view), _scale(scale), _bottom(static_cast<float>(size.y) - 10 * scale) {}
+        : _list(list), _view(view), _scale(scale), _bottom(static_cast<float>(size.y) - 10 * scale) {
+        // The caption stands below.
+        if (!view.caption.empty()) _bottom -= ImGui::GetTextLineHeight() + 6 * scale;
+    }
 
     void AddScale(ColorScale const& colors, std::string const& low, std::string const& high,
                   std::string const& title) {
@@ -62,6 +65,16 @@ private:
     ViewOptions const& _view;
     float _scale, _bottom;
 };
+
+// Text on a ground of its own, so that it can be read over the surface; `middle` is its upper middle.
+void AddLabel(ImDrawList& list, ViewOptions const& view, float scale, ImVec2 middle, std::string const& label) {
+    ImVec2 const extent = ImGui::CalcTextSize(label.c_str());
+    float const left = middle.x - extent.x / 2, margin = 3 * scale;
+    list.AddRectFilled({left - margin, middle.y - margin / 2},
+                       {left + extent.x + margin, middle.y + extent.y + margin / 2},
+                       ToImGui(BackgroundColor(view.background), 0.75F));
+    list.AddText({left, middle.y}, ToImGui(TextColor(view.background)), label.c_str());
+}
 
 void AddLegends(Legend& legend, ViewOptions const& view, ViewFacts const& facts) {
     double const range = static_cast<double>(facts.range);
@@ -106,7 +119,7 @@ void AddSplit(ImDrawList& list, ViewOptions const& view, glm::ivec2 size, float 
         float const width = ImGui::CalcTextSize(label.c_str()).x;
         if (static_cast<float>(viewport.cutSize.x) < width + 12 * scale) continue;
         float const center = static_cast<float>(viewport.cutCorner.x) + static_cast<float>(viewport.cutSize.x) / 2;
-        list.AddText({center - width / 2, 8 * scale}, ToImGui(TextColor(view.background)), label.c_str());
+        AddLabel(list, view, scale, {center, 8 * scale}, label);
     }
 }
 
@@ -158,9 +171,8 @@ void Annotate(ImDrawList& list, ViewOptions const& view, ViewFacts const& facts,
         y += ImGui::GetTextLineHeight() + 2 * scale;
     }
     if (!view.caption.empty()) {
-        ImVec2 const extent = ImGui::CalcTextSize(view.caption.c_str());
-        list.AddText({(static_cast<float>(size.x) - extent.x) / 2, static_cast<float>(size.y) - extent.y - 6 * scale},
-                     ToImGui(TextColor(view.background)), view.caption.c_str());
+        float const top = static_cast<float>(size.y) - ImGui::GetTextLineHeight() - 6 * scale;
+        AddLabel(list, view, scale, {static_cast<float>(size.x) / 2, top}, view.caption);
     }
 }
 

@@ -117,13 +117,13 @@ Sheet ArtefactSheet() {
     Sheet sheet{"figure2", 2, {480, 480}, {}};
     for (ShadingMode mode : {ShadingMode::Highlight, ShadingMode::Isophotes}) {
         for (NormalChoice normals : {NormalChoice::Limit, NormalChoice::Blended}) {
-            Panel panel = MakePanel("cross_quads", mode, normals,
-                                    normals == NormalChoice::Limit ? "N_L at a vertex of valence 6"
-                                                                   : "N_B at a vertex of valence 6");
+            Panel panel = MakePanel("tetrahedron", mode, normals,
+                                    normals == NormalChoice::Limit ? "N_L at a vertex of valence 3, Loop"
+                                                                   : "N_B at a vertex of valence 3, Loop");
+            panel.mesh.scheme = Sdc::SCHEME_LOOP;
             panel.options.level = 6;
             panel.vertex = VertexKind::Smooth;
-            panel.zoom = 0.3F;
-            panel.view.lineCount = 60;
+            panel.zoom = 0.5F;
             sheet.panels.push_back(panel);
         }
     }
