@@ -9,20 +9,6 @@ inline namespace v1 {
 
 namespace {
 
-/// A sum of vectors and of the lengths that went into it.
-template <typename Real>
-struct VectorSum {
-    Vec3<Real> sum{};
-    Real added = 0;
-
-    void add(Vec3<Real> const& unit, Real weight) {
-        if (IsZero(unit)) return;
-        sum += weight * unit;
-        added += weight;
-    }
-    Vec3<Real> normalized() const { return NormalizedSum(sum, added); }
-};
-
 /// The sides of a face's corner.
 template <typename Real>
 struct CornerSides {
@@ -56,13 +42,9 @@ void weighFaces(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& 
     };
     for (int i = 0; i < faces.size(); ++i) {
         CornerSides<Real> const sides(level, points, faces[i], corners[i]);
-        Real& own = weights[static_cast<std::size_t>(i)];
-        if (weight == FaceWeight::CornerArea) {
-            own = Length(Cross(scaled(sides.after, longest), scaled(sides.before, longest)));
-        } else {
-            Vec3<Real> const after = Normalized(sides.after), before = Normalized(sides.before);
-            own = std::atan2(Length(Cross(after, before)), Dot(after, before));
-        }
+        Vec3<Real> const after = weight == FaceWeight::CornerArea ? scaled(sides.after, longest) : sides.after;
+        Vec3<Real> const before = weight == FaceWeight::CornerArea ? scaled(sides.before, longest) : sides.before;
+        weights[static_cast<std::size_t>(i)] = CornerWeight(weight, after, before);
     }
 }
 
@@ -71,37 +53,16 @@ void weighFaces(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& 
 template <typename Real>
 Vec3<Real> UnitFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points, int face) {
     Far::ConstIndexArray const vertices = level.GetFaceVertices(face);
-    Vec3<Real> const origin = points[static_cast<std::size_t>(vertices[0])];
-    // Scaled to unit size first: areas of tiny or huge faces leave the range of numbers.
-    Real size = 0;
-    for (int i = 1; i < vertices.size(); ++i) {
-        size = std::fmax(size, Length(points[static_cast<std::size_t>(vertices[i])] - origin));
-    }
-    if (!(size > 0)) return {};
-    auto const sideTo = [&](int i) {
-        Vec3<Real> const side = points[static_cast<std::size_t>(vertices[i])] - origin;
-        return Vec3<Real>{side.x / size, side.y / size, side.z / size};
-    };
-    // An area vanishes against the product of its triangles' sides, not against itself: rounding is no normal.
-    Vec3<Real> area{}, side = sideTo(1);
-    Real added = 0, sideLength = Length(side);
-    for (int i = 2; i < vertices.size(); ++i) {
-        Vec3<Real> const next = sideTo(i);
-        Real const nextLength = Length(next);
-        area += Cross(side, next);
-        added += sideLength * nextLength;
-        side = next;
-        sideLength = nextLength;
-    }
-    return NormalizedSum(area, added);
+    return UnitPolygonNormal<Real>(vertices.size(),
+                                   [&](int i) { return points[static_cast<std::size_t>(vertices[i])]; });
 }
 
 template <typename Real>
 Vec3<Real> AverageFaceNormal(Far::TopologyLevel const& level, std::vector<Vec3<Real>> const& points,
                              RegionFan const& fan) {
     VectorSum<Real> sum;
-    for (int const face : fan.faces) sum.add(UnitFaceNormal(level, points, face), Real(1));
-    return sum.normalized();
+    for (int const face : fan.faces) sum.Add(UnitFaceNormal(level, points, face), Real(1));
+    return sum.Normalized();
 }
 
 template <typename Real>
@@ -125,11 +86,11 @@ std::vector<Vec3<Real>> AverageFaceNormals(Far::TopologyLevel const& level, Crea
             Far::ConstIndexArray const faces = level.GetVertexFaces(v);
             Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(v);
             for (int i = 0; i < faces.size(); ++i) {
-                sums[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]) - first)].add(
+                sums[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]) - first)].Add(
                     faceNormals[static_cast<std::size_t>(faces[i])], weights[static_cast<std::size_t>(i)]);
             }
             for (std::size_t i = 0; i < sums.size(); ++i) {
-                normals[static_cast<std::size_t>(first) + i] = sums[i].normalized();
+                normals[static_cast<std::size_t>(first) + i] = sums[i].Normalized();
             }
         }
     });

@@ -7,12 +7,69 @@
 #include <vector>
 
 #include "osd_shading/creaseRegions.h"
+#include "osd_shading/vectorMath.h"
 
 namespace osd_shading {
 inline namespace v1 {
 
 /// How much a face counts in the normal of a vertex.
 enum class FaceWeight { Uniform, CornerArea, Angle };
+
+/// What a face counts at a corner with the sides `after` and `before`.
+template <typename Real>
+Real CornerWeight(FaceWeight weight, Vec3<Real> const& after, Vec3<Real> const& before) {
+    switch (weight) {
+        case FaceWeight::CornerArea:
+            return Length(Cross(after, before));
+        case FaceWeight::Angle: {
+            Vec3<Real> const a = Normalized(after), b = Normalized(before);
+            return std::atan2(Length(Cross(a, b)), Dot(a, b));
+        }
+        default:
+            return 1;
+    }
+}
+
+/// The unit normal by its vector area (Newell) of a polygon of `size` points, `pointAt(0)` and on; zero where it
+/// has none.
+template <typename Real, typename PointAt>
+Vec3<Real> UnitPolygonNormal(int size, PointAt const& pointAt) {
+    Vec3<Real> const origin = pointAt(0);
+    // Scaled to unit size first: areas of tiny or huge faces leave the range of numbers.
+    Real largest = 0;
+    for (int i = 1; i < size; ++i) largest = std::fmax(largest, Length(pointAt(i) - origin));
+    if (!(largest > 0)) return {};
+    auto const sideTo = [&](int i) {
+        Vec3<Real> const side = pointAt(i) - origin;
+        return Vec3<Real>{side.x / largest, side.y / largest, side.z / largest};
+    };
+    // An area vanishes against the product of its triangles' sides, not against itself: rounding is no normal.
+    Vec3<Real> area{}, side = sideTo(1);
+    Real added = 0, sideLength = Length(side);
+    for (int i = 2; i < size; ++i) {
+        Vec3<Real> const next = sideTo(i);
+        Real const nextLength = Length(next);
+        area += Cross(side, next);
+        added += sideLength * nextLength;
+        side = next;
+        sideLength = nextLength;
+    }
+    return NormalizedSum(area, added);
+}
+
+/// A sum of vectors and of the lengths that went into it.
+template <typename Real>
+struct VectorSum {
+    Vec3<Real> sum{};
+    Real added = 0;
+
+    void Add(Vec3<Real> const& unit, Real weight) {
+        if (IsZero(unit)) return;
+        sum += weight * unit;
+        added += weight;
+    }
+    Vec3<Real> Normalized() const { return NormalizedSum(sum, added); }
+};
 
 /// The unit normal of a face by its vector area (Newell); zero where it has none.
 template <typename Real>

@@ -306,6 +306,11 @@ void LimitStep<Real>::AppendTerms(int vertex, int value, std::vector<std::pair<i
     forEachVertexTerm(vertex, [&](int u, Real weight) { terms.emplace_back(_regions->FirstValue(u), weight); });
 }
 
+template <typename Real>
+void LimitStep<Real>::AppendPointTerms(int vertex, std::vector<std::pair<int, Real>>& terms) const {
+    forEachVertexTerm(vertex, [&](int u, Real weight) { terms.emplace_back(u, weight); });
+}
+
 #define OSD_SHADING_INSTANTIATE(Real)                                                                          \
     template class LimitMasks<Real>;                                                                           \
     template class LimitStep<Real>;                                                                            \

@@ -73,6 +73,9 @@ public:
     /// Appends the terms (value, weight) of the limit of `value`, one of `vertex`.
     void AppendTerms(int vertex, int value, std::vector<std::pair<int, Real>>& terms) const;
 
+    /// Appends the terms (vertex, weight) of the limit position of `vertex`.
+    void AppendPointTerms(int vertex, std::vector<std::pair<int, Real>>& terms) const;
+
     /// The neighbours that the limit position of `vertex` is made of: the whole ring of a smooth vertex or dart,
     /// the far ends of its two sharp edges on a crease, none at a corner.
     RingView Ring(int vertex) const {

@@ -93,7 +93,7 @@ public:
     std::vector<float> BlendWeights() const;
 
     /// Internal.
-    tables::TableData const& Data() const { return *_data; }
+    std::shared_ptr<tables::TableData const> const& SharedData() const { return _data; }
 
 private:
     std::shared_ptr<tables::TableData const> _data;

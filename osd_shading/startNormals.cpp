@@ -21,17 +21,7 @@ std::int64_t countZero(std::vector<Vec3<Real>> const& normals) {
 /// Replaces the normals round extraordinary vertices that are not sharp by their limit, all at the same time.
 template <typename Real>
 void smoothOnce(LimitStep<Real> const& step, std::vector<Vec3<Real>>& normals, int numThreads) {
-    CreaseRegions const& regions = step.Regions();
-    Far::TopologyLevel const& level = step.Level();
-    ValueMarks marks(normals.size(), 0);
-    for (int v = 0; v < regions.NumVertices(); ++v) {
-        if (regions.IsSharp(v) || !IsExtraordinary(step.Topology(), level, v)) continue;
-        for (int const face : level.GetVertexFaces(v)) {
-            for (int const u : level.GetFaceVertices(face)) {
-                if (!regions.IsSharp(u)) marks[static_cast<std::size_t>(regions.FirstValue(u))] = 1;
-            }
-        }
-    }
+    ValueMarks const marks = MarkSmoothed(step);
     // Limit weights are positive and add to one: a sum of unit normals vanishes against 1.
     std::vector<Vec3<Real>> smoothed = normals;
     step.Apply(normals, smoothed, marks, numThreads);
@@ -41,6 +31,22 @@ void smoothOnce(LimitStep<Real> const& step, std::vector<Vec3<Real>>& normals, i
 }
 
 }  // namespace
+
+template <typename Real>
+ValueMarks MarkSmoothed(LimitStep<Real> const& step) {
+    CreaseRegions const& regions = step.Regions();
+    Far::TopologyLevel const& level = step.Level();
+    ValueMarks marks(static_cast<std::size_t>(regions.NumValues()), 0);
+    for (int v = 0; v < regions.NumVertices(); ++v) {
+        if (regions.IsSharp(v) || !IsExtraordinary(step.Topology(), level, v)) continue;
+        for (int const face : level.GetVertexFaces(v)) {
+            for (int const u : level.GetFaceVertices(face)) {
+                if (!regions.IsSharp(u)) marks[static_cast<std::size_t>(regions.FirstValue(u))] = 1;
+            }
+        }
+    }
+    return marks;
+}
 
 FaceWeight FaceWeightOf(StartNormalKind kind) {
     switch (kind) {
@@ -106,6 +112,7 @@ StartNormals<Real> GatherUserNormals(RefinedTopology const& topology, CreaseRegi
 #define OSD_SHADING_INSTANTIATE(Real)                                                                            \
     template StartNormals<Real> ComputeStartNormals(StartNormalKind, RefinedTopology const&, int,                \
                                                     CreaseRegions const&, std::vector<Vec3<Real>> const&, int);  \
+    template ValueMarks MarkSmoothed(LimitStep<Real> const&);                                                    \
     template StartNormals<Real> GatherUserNormals(RefinedTopology const&, CreaseRegions const&, PointView<Real>, \
                                                   PointView<Real>);
 OSD_SHADING_INSTANTIATE(float)

@@ -25,6 +25,11 @@ StartNormals<Real> ComputeStartNormals(StartNormalKind kind, RefinedTopology con
                                        CreaseRegions const& regions, std::vector<Vec3<Real>> const& points,
                                        int numThreads);
 
+/// The values whose limit normals are smoothed (StartNormalKind::LimitSmoothed): those of extraordinary vertices
+/// that are not sharp, and of all vertices that are not sharp of the faces round them.
+template <typename Real>
+ValueMarks MarkSmoothed(LimitStep<Real> const& step);
+
 /// The caller's normals, one per vertex of level 0 or one per face corner, summed per region.
 template <typename Real>
 StartNormals<Real> GatherUserNormals(RefinedTopology const& topology, CreaseRegions const& regions,

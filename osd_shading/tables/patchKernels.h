@@ -9,6 +9,8 @@
 namespace osd_shading {
 inline namespace v1 {
 
+enum class InstructionSet;  // shadingEvaluator.h, which the kernels' own files must not include
+
 /// A leaf of a tile has at most 16 x 16 faces, so 17 x 17 points.
 constexpr int kLeafSide = 16;
 /// Floats that an array of a leaf's points must have: all points, and what the widest vector writes past them.
@@ -111,8 +113,10 @@ struct PatchKernels {
     ///     N_B = normalize((1 - b) N_L + b N_S); N_L where b is 0 or where the sum vanishes (length <= 1e-6)
     ///
     /// subdividedNormals are 0 where b is 0. A point is doubtful when a tangent is shorter than its smallest, or
-    /// |t1 x t2| <= |t1| |t2| / 64; NaN is not doubtful. Without tangents N_B is N_S (b is 1), and no point is
-    /// doubtful.
+    /// |t1 x t2| <= |t1| |t2| / 32, or where the squares of |t1| |t2| or of the cross product leave the range of
+    /// floats (|t1 x t2| below 1e-18 is taken as that); NaN is not doubtful. Without tangents N_B is N_S (b is 1),
+    /// and no point is doubtful. N_L and N_B of doubtful points are written all the same; never NaN where the
+    /// tangents' cross product is zero. N_B is the same bits whatever else is written.
     void (*finish)(LeafFrame& frame);
 
     /// results[i] = sum of weights[t] * points[sources[t]] for t in [offsets[i], offsets[i + 1]); results may
@@ -120,6 +124,9 @@ struct PatchKernels {
     void (*combine)(int numRows, std::uint32_t const* offsets, std::uint16_t const* sources, float const* weights,
                     LocalPoint const* points, LocalPoint* results);
 };
+
+/// The kernels of `set`; null where this build or this processor lacks it.
+PatchKernels const* FindKernels(InstructionSet set);
 
 }  // namespace v1
 }  // namespace osd_shading
