@@ -175,6 +175,54 @@ TEST(SceneBuilder, HasSubdividedNormalsEverywhereWhereTheyAreAskedFor) {
     EXPECT_EQ(count(*SceneOf("mug", 3, Sdc::SCHEME_CATMARK, true)), 0U);
 }
 
+TEST(SceneBuilder, MovesByTablesAsItWouldLevelByLevel) {
+    for (auto const& [name, scheme] : {std::pair("mug", Sdc::SCHEME_CATMARK), {"letter_a_dart", Sdc::SCHEME_CATMARK},
+                                       {"hat", Sdc::SCHEME_LOOP}, {"pencil_ngons", Sdc::SCHEME_CATMARK}}) {
+        SCOPED_TRACE(name);
+        auto const model = std::make_shared<io::Model>(LoadModel(name));
+        SubdivisionRules rules;
+        rules.scheme = scheme;
+        SceneRequest request{model, name, model->Rules(rules), PaperPreset(3), true,
+                             {DeformationKind::Bend, 0.2F, 1}};
+        auto const build = [](SceneBuilder& builder, SceneRequest const& wanted) {
+            return builder.Build(wanted, [](double) { return true; });
+        };
+        // Deformed beforehand, and then shaded as any model.
+        std::vector<glm::vec3> points;
+        auto const scene = SceneOf(name, 1, scheme);
+        auto moved = std::make_shared<io::Model>(*model);
+        for (glm::vec3 const& p : scene->cage.points) points.push_back(p);
+        Deform(request.deformation, points);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            for (int k = 0; k < 3; ++k) {
+                moved->positions[3 * i + static_cast<std::size_t>(k)] = static_cast<double>(points[i][k]);
+            }
+        }
+        SceneRequest still = request;
+        still.model = moved;
+        still.deformation = {};
+        SceneBuilder byTables, byLevels;
+        auto const expected = build(byLevels, still);
+        request.deformation.phase = 0.7F;
+        build(byTables, request);
+        request.deformation.phase = 0.2F;  // from the tables of the frame before
+        auto const actual = build(byTables, request);
+        ASSERT_EQ(actual->vertices.size(), expected->vertices.size());
+        glm::vec3 const shift(expected->origin);
+        int numOff = 0;
+        for (std::size_t i = 0; i < actual->vertices.size(); ++i) {
+            SurfaceVertex const &a = actual->vertices[i], &b = expected->vertices[i];
+            ASSERT_LT(glm::distance(a.position, b.position + shift), 1e-5F * expected->bounds.radius);
+            ASSERT_EQ(a.weight, b.weight);
+            // Of zero length where there is none; a few are badly conditioned.
+            for (NormalChoice choice : {NormalChoice::Limit, NormalChoice::Subdivided, NormalChoice::Blended}) {
+                numOff += glm::distance(NormalOf(a, choice), NormalOf(b, choice)) > 1e-3F ? 1 : 0;
+            }
+        }
+        EXPECT_LE(numOff, static_cast<int>(actual->vertices.size() / 1000));
+    }
+}
+
 TEST(SceneFields, AgreeWithTheLibrarysReport) {
     std::shared_ptr<Scene const> const scene = SceneOf("cross_quads", 3);
     AngleStatistics const angles = CompareNormals(*scene, NormalChoice::Limit, NormalChoice::Blended);

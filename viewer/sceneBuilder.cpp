@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "modelInput.h"
 #include "osd_shading/io/errors.h"
 #include "osd_shading/subdivisionShading.h"
+#include "sceneFields.h"
 #include "surfaceTopology.h"
 
 namespace osd_shading::viewer {
@@ -97,36 +100,72 @@ ShadingResult<float> Shade(SceneRequest const& request, ShadingInput<float> cons
     }
 }
 
+bool HasTables(ShadingOptions const& options) {
+    return options.subdividedNormals.averaging == NormalAveraging::Linear &&
+           options.startNormals.kind != StartNormalKind::User;
+}
+
+// What of the options a table depends on; `execution` changes no number.
+auto Essence(ShadingOptions const& o) {
+    return std::tuple(o.level, o.startNormals.kind, o.startNormals.level, o.weights.scheme, o.weights.sharpVertices,
+                      o.weights.darts, o.weights.level, o.weights.exponent, o.limits.positions, o.limits.normals);
+}
+
+ShadingEvaluator MakeEvaluator(SceneRequest const& request, ShadingOptions const& options) {
+    ShadingTable const table(request.model->Mesh(request.rules), options, ValueOrder::OpenSubdiv);
+    return ShadingEvaluator(table, {options.execution.numThreads, InstructionSet::Best});
+}
+
+// A quarter of what is free is left to others, where the user has not said more.
+ShadingOptions WithExecution(ShadingOptions options, std::function<bool(double)> progress) {
+    std::uint64_t const free = tool::FreeMemory();
+    if (options.execution.memoryLimit == 0) options.execution.memoryLimit = free - free / 4;
+    options.execution.progress = std::move(progress);
+    return options;
+}
+
 }  // namespace
 
 std::shared_ptr<Scene const> SceneBuilder::Build(SceneRequest const& request,
                                                  std::function<bool(double)> const& progress) {
     auto const start = Clock::now();
-    auto scene = std::make_shared<Scene>();
     io::Model const& model = *request.model;
+    tool::RequireTriangles(request.file, request.rules.scheme, model);
 
     // Bring the points to where they are shown.
-    tool::RequireTriangles(request.file, request.rules.scheme, model);
-    scene->origin = OriginOf(model);
-    std::vector<glm::vec3> points = PointsOf(model, scene->origin);
+    glm::dvec3 const origin = OriginOf(model);
+    std::vector<glm::vec3> points = PointsOf(model, origin);
     Deform(request.deformation, points);
+
+    bool const isMoved = request.deformation.kind != DeformationKind::None;
+    std::shared_ptr<Scene> const scene = isMoved && HasTables(request.options) ? evaluate(request, points, progress)
+                                                                               : shade(request, points, progress);
+    scene->origin = origin;
+    scene->bounds = BoundsOf(scene->vertices);
+    scene->cage = MakeCage(model, points);
+    scene->seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return scene;
+}
+
+std::shared_ptr<Scene> SceneBuilder::shade(SceneRequest const& request, std::vector<glm::vec3> const& points,
+                                           std::function<bool(double)> const& progress) {
+    auto scene = std::make_shared<Scene>();
+    io::Model const& model = *request.model;
     tool::RunInput<float> run = tool::MakeInput<float>(request.file, model, request.options.startNormals.kind);
     run.input.positions = {&points[0].x, points.size()};
     run.input.faceVaryingData.clear();
 
     // Shade, a second time with weight 1 where N_S is wanted everywhere.
-    ShadingOptions options = request.options;
-    bool const needsSecond = request.allSubdivided && options.weights.scheme != WeightScheme::One;
-    std::uint64_t const free = tool::FreeMemory();
-    if (options.execution.memoryLimit == 0) options.execution.memoryLimit = free - free / 4;
-    options.execution.progress = [&](double share) { return progress(needsSecond ? share / 2 : share); };
-    ShadingResult<float> result = Shade(request, run.input, options);
+    bool const needsSecond = request.allSubdivided && request.options.weights.scheme != WeightScheme::One;
+    ShadingResult<float> result = Shade(request, run.input, WithExecution(request.options, [&](double share) {
+                                            return progress(needsSecond ? share / 2 : share);
+                                        }));
     scene->vertices = VerticesOf(result);
     scene->hasAllSubdivided = request.allSubdivided || result.options.weights.scheme == WeightScheme::One;
     if (needsSecond) {
-        ShadingOptions everywhere = options;
+        ShadingOptions everywhere =
+            WithExecution(request.options, [&](double share) { return progress(0.5 + share / 2); });
         everywhere.weights.scheme = WeightScheme::One;
-        everywhere.execution.progress = [&](double share) { return progress(0.5 + share / 2); };
         ShadingResult<float> const second = Shade(request, run.input, everywhere);
         for (std::size_t i = 0; i < scene->vertices.size(); ++i) {
             scene->vertices[i].subdividedNormal = ToGlm(second.subdividedNormals[i]);
@@ -146,9 +185,55 @@ std::shared_ptr<Scene const> SceneBuilder::Build(SceneRequest const& request,
         _level = scene->options.level;
     }
     scene->topology = _topology;
-    scene->bounds = BoundsOf(scene->vertices);
-    scene->cage = MakeCage(model, points);
-    scene->seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return scene;
+}
+
+bool SceneBuilder::keepsTables(SceneRequest const& request) const {
+    return _tables && _tables->request.model == request.model && IsSame(_tables->request.rules, request.rules) &&
+           Essence(_tables->request.options) == Essence(request.options) &&
+           (_tables->allSubdivided || !request.allSubdivided);
+}
+
+std::shared_ptr<Scene> SceneBuilder::evaluate(SceneRequest const& request, std::vector<glm::vec3> const& points,
+                                              std::function<bool(double)> const& progress) {
+    if (!keepsTables(request)) {
+        _tables.reset();
+        SceneRequest still = request;
+        still.deformation = {};
+        glm::dvec3 const origin = OriginOf(*request.model);
+        auto rest = shade(still, PointsOf(*request.model, origin),
+                          [&](double share) { return progress(share / 2); });
+        ShadingOptions const options =
+            WithExecution(request.options, [&](double share) { return progress(0.5 + share / 4); });
+        ShadingOptions everywhere =
+            WithExecution(request.options, [&](double share) { return progress(0.75 + share / 4); });
+        everywhere.weights.scheme = WeightScheme::One;
+        _tables.emplace(Tables{std::move(still), std::move(rest), MakeEvaluator(request, options), std::nullopt});
+        if (request.allSubdivided) _tables->allSubdivided = MakeEvaluator(request, everywhere);
+    }
+
+    // One frame, straight into what the renderer takes.
+    Scene const& rest = *_tables->rest;
+    auto scene = std::make_shared<Scene>(rest);
+    std::size_t const count = scene->vertices.size();
+    constexpr std::size_t kStride = sizeof(SurfaceVertex) / sizeof(float);
+    SurfaceVertex& first = scene->vertices[0];
+    ShadingOutputs outputs;
+    outputs.positions = {&first.position.x, count, kStride};
+    outputs.limitNormals = {&first.limitNormal.x, count, kStride};
+    outputs.subdividedNormals = {&first.subdividedNormal.x, count, kStride};
+    outputs.blendedNormals = {&first.blendedNormal.x, count, kStride};
+    PointView<float> const controlPoints(&points[0].x, points.size());
+    _tables->evaluator.Evaluate(controlPoints, outputs);
+    if (request.allSubdivided) {
+        ShadingOutputs all;
+        all.subdividedNormals = outputs.subdividedNormals;
+        _tables->allSubdivided->Evaluate(controlPoints, all);
+    }
+    AngleStatistics const angles = CompareNormals(*scene, NormalChoice::Limit, NormalChoice::Blended);
+    scene->report.meanAngle = angles.mean;
+    scene->report.maxAngle = angles.max;
+    scene->report.maxAngleValue = angles.maxValue;
     return scene;
 }
 
