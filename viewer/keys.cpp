@@ -130,7 +130,7 @@ std::vector<KeyHelp> const& KeyHelpLines() {
         {"Space", "play the movement, or stop"},
         {"P", "screenshot"},
         {"I, M, B", "figures, panel, background"},
-        {"Tab", "keyboard to the panel (arrows, Space, Enter); Escape: back"},
+        {"F10", "keyboard to the panel (arrows, Space, Enter); Escape: back"},
         {"H or ?", "this list"},
         {"Ctrl+Q", "quit"}};
     return lines;
@@ -167,7 +167,7 @@ bool HandleKey(Workbench& bench, PanelState& state, int key, int modifiers) {
             state.isVisible = !state.isVisible;
             state.hasKeyboard = false;
             return true;
-        case GLFW_KEY_TAB:
+        case GLFW_KEY_F10:
             state.isVisible = state.takesFocus = state.hasKeyboard = true;
             return true;
         default: return HandleViewKey(bench, state, key, isShifted);
