@@ -163,6 +163,20 @@ TEST(SurfaceTopology, HasEachEdgeOnce) {
     }
 }
 
+TEST(SurfaceTopology, KnowsWhereNoBackOfAFaceCanBeSeen) {
+    for (auto const& [name, isClosed] : {std::pair("mug", true), {"cross_triangles", true}, {"ring", true},
+                                         {"hat", false}, {"open_box", false}, {"cube_hole", false}}) {
+        EXPECT_EQ(SceneOf(name, 2)->topology->hidesBackFaces, isClosed) << name;
+    }
+    // Turned inside out, closed as it is, its backs are what one sees.
+    auto const model = std::make_shared<io::Model>(LoadModel("cube_uvs"));
+    std::reverse(model->faceVertices.begin(), model->faceVertices.end());
+    SceneBuilder builder;
+    auto const scene = builder.Build({model, "reversed", model->Rules({}), PaperPreset(2), false, {}},
+                                     [](double) { return true; });
+    EXPECT_FALSE(scene->topology->hidesBackFaces);
+}
+
 TEST(SceneBuilder, HasSubdividedNormalsEverywhereWhereTheyAreAskedFor) {
     auto const count = [](Scene const& scene) {
         std::size_t missing = 0;

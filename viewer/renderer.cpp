@@ -313,7 +313,11 @@ void Renderer::Draw(std::shared_ptr<Scene const> const& scene, Camera const& cam
         glm::mat4 const projection = camera.Projection(viewport.Aspect(), bounds);
         float const near = projection[3][2] / (projection[2][2] - 1);
         Frame const frame{camera.View(), projection, glm::vec2(viewport.size), near, lift, scale, view, facts};
+        // Half of the triangles need not be drawn where nobody can see them.
+        bool const isOutside = glm::distance(camera.Eye(), scene->bounds.center) > scene->bounds.radius;
+        if (_topology->hidesBackFaces && isOutside) glEnable(GL_CULL_FACE);
         drawSurface(frame, viewport);
+        glDisable(GL_CULL_FACE);
         drawOverlays(frame);
     }
     glDisable(GL_SCISSOR_TEST);

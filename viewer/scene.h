@@ -45,6 +45,7 @@ struct SurfaceTopology {
     std::vector<ControlCurve> curves;
     std::vector<int> curveValues;
     int numControlVertices = 0;
+    bool hidesBackFaces = false;  ///< closed, and looks outwards: seen from outside, no back of a face is in sight
 
     std::size_t NumFaces() const { return baseFaces.size(); }
     int NumVertices() const { return static_cast<int>(vertexTags.size()); }

@@ -12,6 +12,7 @@ namespace {
 /// An edge of the result, seen from one face; `low` and `high` are vertices.
 struct HalfEdge {
     int high, lowValue, highValue, baseFace;
+    bool isForward;  // runs from low to high
 };
 
 /// An edge of the result that lies on a control edge.
@@ -44,20 +45,21 @@ std::vector<CurveEdge> AddWires(SurfaceTopology& topology) {
         for (std::size_t corner = 0; corner < topology.faceValues.size(); ++corner) {
             std::size_t const next = corner % size == size - 1 ? corner + 1 - size : corner + 1;
             int a = topology.faceValues[corner], b = topology.faceValues[next];
-            if (vertexOf(a) > vertexOf(b)) std::swap(a, b);
-            visit(static_cast<std::size_t>(vertexOf(a)), a, b, topology.baseFaces[corner / size]);
+            bool const isForward = vertexOf(a) < vertexOf(b);
+            if (!isForward) std::swap(a, b);
+            visit(static_cast<std::size_t>(vertexOf(a)),
+                  HalfEdge{vertexOf(b), a, b, topology.baseFaces[corner / size], isForward});
         }
     };
-    forEach([&](std::size_t low, int, int, int) { ++offsets[low + 1]; });
+    forEach([&](std::size_t low, HalfEdge const&) { ++offsets[low + 1]; });
     for (std::size_t i = 0; i < numVertices; ++i) offsets[i + 1] += offsets[i];
     std::vector<int> ends(offsets.begin(), offsets.end() - 1);
-    forEach([&](std::size_t low, int a, int b, int baseFace) {
-        halfEdges[static_cast<std::size_t>(ends[low]++)] = {vertexOf(b), a, b, baseFace};
-    });
+    forEach([&](std::size_t low, HalfEdge const& edge) { halfEdges[static_cast<std::size_t>(ends[low]++)] = edge; });
 
     // Bring those of one edge together.
     std::vector<CurveEdge> onCurves;
     topology.wires.reserve(halfEdges.size() / 2);
+    topology.hidesBackFaces = true;
     for (std::size_t low = 0; low < numVertices; ++low) {
         auto const first = halfEdges.begin() + offsets[low], last = halfEdges.begin() + offsets[low + 1];
         std::sort(first, last, [](HalfEdge const& a, HalfEdge const& b) { return a.high < b.high; });
@@ -68,6 +70,8 @@ std::vector<CurveEdge> AddWires(SurfaceTopology& topology) {
             }
             topology.wires.push_back({begin->lowValue, begin->highValue});
             bool const isCurve = !isInside || end - begin == 1;
+            bool const isPair = end - begin == 2 && begin->isForward != (begin + 1)->isForward;
+            topology.hidesBackFaces = topology.hidesBackFaces && isPair;
             if (isCurve) {
                 onCurves.push_back(
                     {{static_cast<int>(low), begin->high}, {begin->lowValue, begin->highValue}});
@@ -134,6 +138,39 @@ void AddCurves(std::vector<CurveEdge> const& edges, SurfaceTopology& topology) {
     }
 }
 
+// Whether each connected piece encloses more of its inside than of its outside, by its signed volume.
+bool LooksOutwards(SurfaceTopology const& topology, std::vector<Vec3<float>> const& positions) {
+    // Join the vertices of each face.
+    std::vector<int> parents(positions.size());
+    for (std::size_t i = 0; i < parents.size(); ++i) parents[i] = static_cast<int>(i);
+    auto const find = [&](int vertex) {
+        while (parents[static_cast<std::size_t>(vertex)] != vertex) {
+            int& parent = parents[static_cast<std::size_t>(vertex)];
+            parent = parents[static_cast<std::size_t>(parent)];
+            vertex = parent;
+        }
+        return vertex;
+    };
+    auto const vertexAt = [&](std::size_t corner) {
+        return topology.valueVertices[static_cast<std::size_t>(topology.triangles[corner])];
+    };
+    for (std::size_t i = 0; i < topology.triangles.size(); i += 3) {
+        int const root = find(vertexAt(i));
+        for (std::size_t k : {i + 1, i + 2}) parents[static_cast<std::size_t>(find(vertexAt(k)))] = root;
+    }
+
+    std::vector<double> volumes(positions.size(), 0);
+    for (std::size_t i = 0; i < topology.triangles.size(); i += 3) {
+        auto const point = [&](std::size_t corner) {
+            Vec3<float> const& p = positions[static_cast<std::size_t>(vertexAt(corner))];
+            return glm::dvec3(p.x, p.y, p.z);
+        };
+        volumes[static_cast<std::size_t>(find(vertexAt(i)))] +=
+            glm::dot(point(i), glm::cross(point(i + 1), point(i + 2)));
+    }
+    return std::none_of(volumes.begin(), volumes.end(), [](double volume) { return volume < 0; });
+}
+
 }  // namespace
 
 std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<float>&& result, int numControlVertices) {
@@ -148,6 +185,7 @@ std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<float>&
     topology->numControlVertices = numControlVertices;
     AddTriangles(*topology);
     AddCurves(AddWires(*topology), *topology);
+    topology->hidesBackFaces = topology->hidesBackFaces && LooksOutwards(*topology, result.positions);
     return topology;
 }
 
