@@ -27,8 +27,8 @@ namespace {
 
 using ioFiles::TemporaryFolder;
 
-std::shared_ptr<Scene const> SceneOf(std::string const& name, int level, Sdc::SchemeType scheme = Sdc::SCHEME_CATMARK,
-                                     bool allSubdivided = false) {
+std::shared_ptr<Scene const> SceneOf(std::string const& name, int level,
+                                     Sdc::SchemeType scheme = Sdc::SCHEME_CATMARK, bool allSubdivided = false) {
     auto const model = std::make_shared<io::Model>(LoadModel(name));
     SubdivisionRules rules;
     rules.scheme = scheme;
@@ -66,9 +66,9 @@ TEST(ViewerCamera, ItsTextGivesTheSameCamera) {
 }
 
 TEST(ViewerCamera, WhatIsNoCameraIsNone) {
-    for (char const* text : {"", "above", "orbit?", "orbit?yaw=1&pitch=91", "orbit?yaw=nan", "orbit?yaw=1&yaw",
-                             "orbit?distance=2", "orbit?target=0,0,0", "orbit?distance=-1&target=0,0,0",
-                             "orbit?distance=1&target=0,0", "orbit?roll=3"}) {
+    for (char const* text :
+         {"", "above", "orbit?", "orbit?yaw=1&pitch=91", "orbit?yaw=nan", "orbit?yaw=1&yaw", "orbit?distance=2",
+          "orbit?target=0,0,0", "orbit?distance=-1&target=0,0,0", "orbit?distance=1&target=0,0", "orbit?roll=3"}) {
         bool const isEmptyView = std::string(text) == "orbit?";
         EXPECT_EQ(ParseCamera(text).has_value(), isEmptyView) << text;
     }
@@ -108,12 +108,53 @@ TEST(ViewerCamera, ZoomKeepsThePointUnderTheCursor) {
 
 TEST(ViewerSettings, TheirTextGivesTheSameSettings) {
     TemporaryFolder const folder;
-    std::vector<std::string> const words = {
-        "mug", "--scheme", "loop", "--level", "3", "--preset", "smooth", "--exponent", "2.5", "--darts", "sharp",
-        "--boundary", "none", "--split", "subdivided,face", "--split-line", "0.25", "--overlay", "ev,cage", "--shading",
-        "zebra", "--camera", "orbit?yaw=10&pitch=20&distance=3&target=1,2,3", "--lines", "7", "--roughness", "0.5",
-        "--range", "12", "--vertex", "3", "--background", "dark", "--legend", "off", "--caption", "two words",
-        "--deform", "twist", "--phase", "0.5", "--amount", "0.75", "--crease-angle", "30", "--threads", "2"};
+    std::vector<std::string> const words = {"mug",
+                                            "--scheme",
+                                            "loop",
+                                            "--level",
+                                            "3",
+                                            "--preset",
+                                            "smooth",
+                                            "--exponent",
+                                            "2.5",
+                                            "--darts",
+                                            "sharp",
+                                            "--boundary",
+                                            "none",
+                                            "--split",
+                                            "subdivided,face",
+                                            "--split-line",
+                                            "0.25",
+                                            "--overlay",
+                                            "ev,cage",
+                                            "--shading",
+                                            "zebra",
+                                            "--camera",
+                                            "orbit?yaw=10&pitch=20&distance=3&target=1,2,3",
+                                            "--lines",
+                                            "7",
+                                            "--roughness",
+                                            "0.5",
+                                            "--range",
+                                            "12",
+                                            "--vertex",
+                                            "3",
+                                            "--background",
+                                            "dark",
+                                            "--legend",
+                                            "off",
+                                            "--caption",
+                                            "two words",
+                                            "--deform",
+                                            "twist",
+                                            "--phase",
+                                            "0.5",
+                                            "--amount",
+                                            "0.75",
+                                            "--crease-angle",
+                                            "30",
+                                            "--threads",
+                                            "2"};
     auto const given = ParseCommandLine(words);
     ASSERT_TRUE(given);
     std::string const text = SettingsText(given->settings);
@@ -164,8 +205,12 @@ TEST(SurfaceTopology, HasEachEdgeOnce) {
 }
 
 TEST(SurfaceTopology, KnowsWhereNoBackOfAFaceCanBeSeen) {
-    for (auto const& [name, isClosed] : {std::pair("mug", true), {"cross_triangles", true}, {"ring", true},
-                                         {"hat", false}, {"open_box", false}, {"cube_hole", false}}) {
+    for (auto const& [name, isClosed] : {std::pair("mug", true),
+                                         {"cross_triangles", true},
+                                         {"ring", true},
+                                         {"hat", false},
+                                         {"open_box", false},
+                                         {"cube_hole", false}}) {
         EXPECT_EQ(SceneOf(name, 2)->topology->hidesBackFaces, isClosed) << name;
     }
     // Turned inside out, closed as it is, its backs are what one sees.
@@ -190,14 +235,16 @@ TEST(SceneBuilder, HasSubdividedNormalsEverywhereWhereTheyAreAskedFor) {
 }
 
 TEST(SceneBuilder, MovesByTablesAsItWouldLevelByLevel) {
-    for (auto const& [name, scheme] : {std::pair("mug", Sdc::SCHEME_CATMARK), {"letter_a_dart", Sdc::SCHEME_CATMARK},
-                                       {"hat", Sdc::SCHEME_LOOP}, {"pencil_ngons", Sdc::SCHEME_CATMARK}}) {
+    for (auto const& [name, scheme] : {std::pair("mug", Sdc::SCHEME_CATMARK),
+                                       {"letter_a_dart", Sdc::SCHEME_CATMARK},
+                                       {"hat", Sdc::SCHEME_LOOP},
+                                       {"pencil_ngons", Sdc::SCHEME_CATMARK}}) {
         SCOPED_TRACE(name);
         auto const model = std::make_shared<io::Model>(LoadModel(name));
         SubdivisionRules rules;
         rules.scheme = scheme;
-        SceneRequest request{model, name, model->Rules(rules), PaperPreset(3), true,
-                             {DeformationKind::Bend, 0.2F, 1}};
+        SceneRequest request{model,          name, model->Rules(rules),
+                             PaperPreset(3), true, {DeformationKind::Bend, 0.2F, 1}};
         auto const build = [](SceneBuilder& builder, SceneRequest const& wanted) {
             return builder.Build(wanted, [](double) { return true; });
         };
@@ -347,8 +394,7 @@ TEST(Picking, FindsTheEdgeAndTheVertexThatAreSeenAndNotThoseBehind) {
         Camera const camera = choice.For(scene->bounds, 1);
         auto const check = [&](int value, auto const& isPicked) {
             SurfaceVertex const& vertex = scene->vertices[static_cast<std::size_t>(value)];
-            float const facing =
-                glm::dot(vertex.blendedNormal, glm::normalize(camera.Eye() - vertex.position));
+            float const facing = glm::dot(vertex.blendedNormal, glm::normalize(camera.Eye() - vertex.position));
             if (std::abs(facing) < 0.25F) return;
             auto const at = Project(camera, scene->bounds, size, vertex.position);
             ASSERT_TRUE(at);

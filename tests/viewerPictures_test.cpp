@@ -38,7 +38,8 @@ std::shared_ptr<viewer::Scene const> SceneOf(std::string const& name, int level,
     auto const model = std::make_shared<osd_shading::io::Model>(viewer::LoadModel(ModelPath(name)));
     osd_shading::SubdivisionRules rules;
     rules.scheme = scheme;
-    viewer::SceneRequest const request{model, name, model->Rules(rules), osd_shading::PaperPreset(level), false, {}};
+    viewer::SceneRequest const request{model, name, model->Rules(rules), osd_shading::PaperPreset(level),
+                                       false, {}};
     viewer::SceneBuilder builder;
     return builder.Build(request, [](double) { return true; });
 }
@@ -179,8 +180,17 @@ TEST(WeightPicture, IsRedAtASmoothExtraordinaryVertexAndBlueAtASharpOneUnderVari
     });
     ASSERT_TRUE(sharp && smooth);
 
-    Words const words = {ModelPath("cube_creased"), "--level", "2", "--size", "400x400", "--shading", "weight",
-                         "--legend", "off", "--camera", camera.Text()};
+    Words const words = {ModelPath("cube_creased"),
+                         "--level",
+                         "2",
+                         "--size",
+                         "400x400",
+                         "--shading",
+                         "weight",
+                         "--legend",
+                         "off",
+                         "--camera",
+                         camera.Text()};
     Picture const picture = Draw(words);
     Color const red = picture.At(smooth->x, smooth->y), blue = picture.At(sharp->x, sharp->y);
     EXPECT_GE(red.red, 245);
@@ -196,7 +206,8 @@ TEST(WeightPicture, IsRedAtASmoothExtraordinaryVertexAndBlueAtASharpOneUnderVari
 TEST(SplitPicture, HalvesDifferNearExtraordinaryVerticesAndAreEqualFarFromThem) {
     for (std::string const model : {"mug", "axe", "letter_a"}) {
         SCOPED_TRACE(model);
-        Words const base = {ModelPath(model), "--level", "3", "--legend", "off", "--camera", "orbit?yaw=60&pitch=15"};
+        Words const base = {ModelPath(model),       "--level", "3", "--legend", "off", "--camera",
+                            "orbit?yaw=60&pitch=15"};
         Picture const split = Draw(Joined(base, {"--size", "600x300", "--split", "limit,blended"}));
         Picture const weight = Draw(Joined(base, {"--size", "300x300", "--shading", "weight"}));
         int far = 0, farDifferent = 0, near = 0, nearDifferent = 0;
@@ -243,8 +254,9 @@ TEST(NormalPicture, ShowsTheNormalsOfAnAxisAsItsColour) {
     // The floor of an upright closed cube under sharp edges: flat faces, whose normals are the axes.
     TemporaryFolder const folder;
     std::string const file = folder.File("cube.obj");
-    std::string text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
-                       "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    std::string text =
+        "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
     ioFiles::WriteBytes(file, text);
     struct Case {
         std::string camera, normals;
@@ -270,10 +282,12 @@ TEST(CurvaturePicture, SeesOneOnASphereAndTwiceThatHalfWay) {
 }
 
 TEST(DifferencePicture, IsDarkWhereNormalsAgreeAndBrightWhereTheyDiffer) {
-    Words const words = Joined({ModelPath("mug"), "--shading", "difference", "--camera", "orbit?yaw=60&pitch=15"}, kSmall);
+    Words const words =
+        Joined({ModelPath("mug"), "--shading", "difference", "--camera", "orbit?yaw=60&pitch=15"}, kSmall);
     Picture const same = Draw(Joined(words, {"--split", "limit,limit", "--range", "1"}));
     Color const dark{68, 1, 84};
-    EXPECT_EQ(same.NumNear(dark, 2), Draw(Joined(words, {"--split", "limit,blended", "--range", "90000"})).NumNear(dark, 2));
+    EXPECT_EQ(same.NumNear(dark, 2),
+              Draw(Joined(words, {"--split", "limit,blended", "--range", "90000"})).NumNear(dark, 2));
     Picture const different = Draw(Joined(words, {"--split", "limit,blended", "--range", "1"}));
     EXPECT_GT(different.NumNear({253, 231, 37}, 10), 200);
     EXPECT_GT(different.NumNear(dark, 2), 500);
@@ -315,8 +329,8 @@ TEST(WholePicture, IsMirroredWhenTheModelIs) {
         for (std::string const mode : {"highlight", "isophotes", "weight"}) {
             SCOPED_TRACE(model + mode);
             // Fine quads: how they are cut into triangles is not symmetric.
-            Words const words = {"--size", "200x150", "--level",   "5", "--legend", "off",
-                                 "--lines", "8",      "--shading", mode};
+            Words const words = {"--size", "200x150", "--level", "5",         "--legend",
+                                 "off",    "--lines", "8",       "--shading", mode};
             Picture const picture = Draw(Joined({ModelPath(model), "--camera", "orbit?yaw=35&pitch=20"}, words));
             Picture const mirrored = Draw(Joined({file, "--camera", "orbit?yaw=-35&pitch=20"}, words));
             int different = 0;
@@ -382,10 +396,11 @@ TEST(WholePicture, MovesWithTheModel) {
 TEST(SettingsFile, GivesTheSamePictureAsTheOptionsAndLosesAgainstThem) {
     TemporaryFolder const folder;
     std::string const file = folder.File("settings.txt");
-    ioFiles::WriteBytes(file, "# a comment\nmodel cross_quads\n\nlevel 2\nshading zebra\nlines 12\nlegend off\nsize 200x150\n");
+    ioFiles::WriteBytes(
+        file, "# a comment\nmodel cross_quads\n\nlevel 2\nshading zebra\nlines 12\nlegend off\nsize 200x150\n");
     Picture const bySettings = Draw({"--settings", file});
-    Picture const byOptions = Draw({"cross_quads", "--level", "2", "--shading", "zebra", "--lines", "12", "--legend",
-                                    "off", "--size", "200x150"});
+    Picture const byOptions = Draw({"cross_quads", "--level", "2", "--shading", "zebra", "--lines", "12",
+                                    "--legend", "off", "--size", "200x150"});
     EXPECT_EQ(NumDifferent(bySettings, byOptions, 0), 0);
     Picture const other = Draw({"--settings", file, "--shading", "weight"});
     EXPECT_GT(NumDifferent(bySettings, other, 20), 1000);
@@ -402,25 +417,25 @@ TEST(BadInput, IsRefusedInOneLineWithStatus2) {
                       settings = folder.File("settings.txt");
     ioFiles::WriteBytes(broken, "v 0 0 0\nf 1 2 3\n");
     ioFiles::WriteBytes(settings, "level 2\nshading\n");
-    for (Refusal const& one : std::vector<Refusal>{
-             {{"no_such_model"}, "no_such_model"},
-             {{broken}, "broken.obj:2"},
-             {{ModelPath("mug"), "--scheme", "loop"}, "Loop subdivision takes triangles only"},
-             {{"mug", "--shading", "shiny"}, "--shading: 'shiny' is not one of lit|"},
-             {{"mug", "--normals", "other"}, "--normals"},
-             {{"mug", "--split", "limit"}, "--split: 'limit' is not a pair"},
-             {{"mug", "--overlay", "creases,hats"}, "--overlay: 'hats'"},
-             {{"mug", "--size", "0x10"}, "--size: '0x10'"},
-             {{"mug", "--size", "99999x10"}, "--size"},
-             {{"mug", "--camera", "orbit?yaw=high"}, "--camera"},
-             {{"mug", "--level", "2", "--weights-from", "3"}, "--weights-from: 3 lies above"},
-             {{"mug", "--exponent", "0"}, "--exponent"},
-             {{"mug", "--start-normals", "file"}, "without a normal"},
-             {{"pencil_ngons", "--level", "0"}, "level"},
-             {{"mug", "--settings", folder.File("none.txt")}, "none.txt"},
-             {{"mug", "--settings", settings}, "settings.txt:2"},
-             {{"mug", "--wings", "2"}, "--wings"},
-             {{"mug", "--image", folder.File("no/folder.png")}, "no/folder.png"}}) {
+    for (Refusal const& one :
+         std::vector<Refusal>{{{"no_such_model"}, "no_such_model"},
+                              {{broken}, "broken.obj:2"},
+                              {{ModelPath("mug"), "--scheme", "loop"}, "Loop subdivision takes triangles only"},
+                              {{"mug", "--shading", "shiny"}, "--shading: 'shiny' is not one of lit|"},
+                              {{"mug", "--normals", "other"}, "--normals"},
+                              {{"mug", "--split", "limit"}, "--split: 'limit' is not a pair"},
+                              {{"mug", "--overlay", "creases,hats"}, "--overlay: 'hats'"},
+                              {{"mug", "--size", "0x10"}, "--size: '0x10'"},
+                              {{"mug", "--size", "99999x10"}, "--size"},
+                              {{"mug", "--camera", "orbit?yaw=high"}, "--camera"},
+                              {{"mug", "--level", "2", "--weights-from", "3"}, "--weights-from: 3 lies above"},
+                              {{"mug", "--exponent", "0"}, "--exponent"},
+                              {{"mug", "--start-normals", "file"}, "without a normal"},
+                              {{"pencil_ngons", "--level", "0"}, "level"},
+                              {{"mug", "--settings", folder.File("none.txt")}, "none.txt"},
+                              {{"mug", "--settings", settings}, "settings.txt:2"},
+                              {{"mug", "--wings", "2"}, "--wings"},
+                              {{"mug", "--image", folder.File("no/folder.png")}, "no/folder.png"}}) {
         SCOPED_TRACE(one.part);
         Words words = one.words;
         bool const hasImage = std::find(words.begin(), words.end(), "--image") != words.end();
@@ -443,11 +458,30 @@ TEST(BadInput, AWindowWithoutADisplayIsRefusedAndPointsToTheWayWithoutOne) {
 TEST(Help, NamesTheMethodOptionsOfOsdShadeAndTheBuiltInModels) {
     Outcome const outcome = RunViewer({"--help"});
     EXPECT_EQ(outcome.status, 0);
-    for (std::string const word :
-         {"--scheme", "--sharpness", "--crease-angle", "--crease-scale", "--boundary", "--creasing", "--triangles",
-          "--level", "--preset", "--start-normals", "--normals-from", "--weights ", "--weights-from",
-          "--sharp-vertices", "--darts", "--exponent", "--averaging", "--spherical-steps", "--limit-normals",
-          "--positions", "--image", "--split", "mug", "letter_a_dart"}) {
+    for (std::string const word : {"--scheme",
+                                   "--sharpness",
+                                   "--crease-angle",
+                                   "--crease-scale",
+                                   "--boundary",
+                                   "--creasing",
+                                   "--triangles",
+                                   "--level",
+                                   "--preset",
+                                   "--start-normals",
+                                   "--normals-from",
+                                   "--weights ",
+                                   "--weights-from",
+                                   "--sharp-vertices",
+                                   "--darts",
+                                   "--exponent",
+                                   "--averaging",
+                                   "--spherical-steps",
+                                   "--limit-normals",
+                                   "--positions",
+                                   "--image",
+                                   "--split",
+                                   "mug",
+                                   "letter_a_dart"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
 }

@@ -22,7 +22,9 @@ namespace viewerTest {
 
 using Words = std::vector<std::string>;
 
-inline std::string ModelPath(std::string const& name) { return std::string(OSD_SHADING_MODELS) + "/" + name + ".obj"; }
+inline std::string ModelPath(std::string const& name) {
+    return std::string(OSD_SHADING_MODELS) + "/" + name + ".obj";
+}
 
 inline std::string Quoted(std::string const& word) {
     std::string quoted = "'";
@@ -40,8 +42,8 @@ inline Outcome RunViewer(Words const& words) {
     // No display: whatever needs one must not be touched.
     std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " + Quoted(OSD_SHADING_VIEWER_PROGRAM);
     for (std::string const& word : words) command += " " + Quoted(word);
-    int const status = std::system(
-        (command + " > " + Quoted(folder.File("out")) + " 2> " + Quoted(folder.File("error"))).c_str());
+    int const status =
+        std::system((command + " > " + Quoted(folder.File("out")) + " 2> " + Quoted(folder.File("error"))).c_str());
     Outcome outcome;
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     outcome.out = ioFiles::ReadBytes(folder.File("out"));

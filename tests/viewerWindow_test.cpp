@@ -106,7 +106,9 @@ class Window : public testing::Test {
 protected:
     static constexpr int kPanel = 300, kSide = 600;  // units that the panel covers; the scene's width and height
 
-    Window() : _server({OSD_SHADING_XVFB, "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"}, 1, "/") {
+    Window()
+        : _server({OSD_SHADING_XVFB, "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"}, 1,
+                  "/") {
         std::string const number = _server.Line();
         EXPECT_FALSE(number.empty()) << "Xvfb does not start";
         setenv("DISPLAY", (":" + number).c_str(), 1);
@@ -114,7 +116,8 @@ protected:
 
     void open(Words words) {
         words.insert(words.begin(), OSD_SHADING_VIEWER_PROGRAM);
-        words.insert(words.end(), {"--report-state", "--size", std::to_string(kPanel + kSide) + "x" + std::to_string(kSide)});
+        words.insert(words.end(),
+                     {"--report-state", "--size", std::to_string(kPanel + kSide) + "x" + std::to_string(kSide)});
         _program.emplace(words, STDOUT_FILENO, folder.Path());
     }
 

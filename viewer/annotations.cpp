@@ -12,7 +12,9 @@ namespace osd_shading::viewer {
 
 namespace {
 
-ImU32 ToImGui(glm::vec3 const& color, float alpha = 1) { return ImGui::GetColorU32({color.r, color.g, color.b, alpha}); }
+ImU32 ToImGui(glm::vec3 const& color, float alpha = 1) {
+    return ImGui::GetColorU32({color.r, color.g, color.b, alpha});
+}
 
 template <typename... Arguments>
 std::string Format(char const* format, Arguments... arguments) {
@@ -33,7 +35,8 @@ public:
     void AddScale(ColorScale const& colors, std::string const& low, std::string const& high,
                   std::string const& title) {
         constexpr int kSteps = 64;
-        float const left = 10 * _scale, width = 160 * _scale, height = 10 * _scale, line = ImGui::GetTextLineHeight();
+        float const left = 10 * _scale, width = 160 * _scale, height = 10 * _scale,
+                    line = ImGui::GetTextLineHeight();
         _bottom -= line;
         text({left, _bottom}, low);
         text({left + width - ImGui::CalcTextSize(high.c_str()).x, _bottom}, high);
@@ -127,10 +130,14 @@ void AddSplit(ImDrawList& list, ViewOptions const& view, glm::ivec2 size, float 
 
 std::string NormalLabel(NormalChoice choice) {
     switch (choice) {
-        case NormalChoice::Limit: return "N_L";
-        case NormalChoice::Subdivided: return "N_S";
-        case NormalChoice::Blended: return "N_B";
-        case NormalChoice::Face: break;
+        case NormalChoice::Limit:
+            return "N_L";
+        case NormalChoice::Subdivided:
+            return "N_S";
+        case NormalChoice::Blended:
+            return "N_B";
+        case NormalChoice::Face:
+            break;
     }
     return "faces";
 }
@@ -157,8 +164,8 @@ std::vector<std::string> SceneLines(Scene const& scene) {
     return lines;
 }
 
-void Annotate(ImDrawList& list, ViewOptions const& view, ViewFacts const& facts, glm::ivec2 size,
-              float scale, std::vector<std::string> const& lines) {
+void Annotate(ImDrawList& list, ViewOptions const& view, ViewFacts const& facts, glm::ivec2 size, float scale,
+              std::vector<std::string> const& lines) {
     AddSplit(list, view, size, scale);
     if (view.legend) {
         Legend legend(list, view, size, scale);

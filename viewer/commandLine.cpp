@@ -86,7 +86,8 @@ std::uint32_t ParseOverlays(std::string_view text) {
 }
 
 void AddFileOptions(CLI::App& app, CommandLine& line) {
-    app.add_option("MODEL,--model", line.settings.modelFile, "Control mesh: an OBJ file, or one of the built-in models")
+    app.add_option("MODEL,--model", line.settings.modelFile,
+                   "Control mesh: an OBJ file, or one of the built-in models")
         ->type_name("FILE");
     app.add_option("--image", line.imageFile, "Write a picture as PNG, without a window or display")
         ->type_name("FILE");
@@ -106,7 +107,8 @@ void AddFileOptions(CLI::App& app, CommandLine& line) {
 void AddViewOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
     static constexpr char kGroup[] = "View";
     ViewOptions& view = line.settings.view;
-    AddChoice(app, "--shading", given.shading, kShadingNames, "What colours say (default highlight)")->group(kGroup);
+    AddChoice(app, "--shading", given.shading, kShadingNames, "What colours say (default highlight)")
+        ->group(kGroup);
     AddChoice(app, "--normals", given.normals, kNormalNames, "Normals to shade with (default blended)")
         ->group(kGroup);
     app.add_option_function<std::string>(
@@ -130,9 +132,10 @@ void AddViewOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
            [&line](std::string const& text) {
                std::optional<CameraChoice> const camera = ParseCamera(text);
                if (!camera) {
-                   Refuse("--camera", "'" + text +
-                                          "' is not front, back, left, right, top, bottom, corner or a text such as "
-                                          "orbit?yaw=35&pitch=22 (with distance and target, or neither)");
+                   Refuse("--camera",
+                          "'" + text +
+                              "' is not front, back, left, right, top, bottom, corner or a text such as "
+                              "orbit?yaw=35&pitch=22 (with distance and target, or neither)");
                }
                line.settings.camera = *camera;
            },
@@ -152,8 +155,7 @@ void AddViewOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
         "Of the lit surface (default 0.35)")
         ->group(kGroup);
     AddNumber(
-        app, "--range", given.range, "a finite number above 0",
-        [](double x) { return std::isfinite(x) && x > 0; },
+        app, "--range", given.range, "a finite number above 0", [](double x) { return std::isfinite(x) && x > 0; },
         "End of the colour scale of difference (degrees) and curvature (default: by the model)")
         ->group(kGroup);
     AddNumber(
@@ -216,7 +218,8 @@ void Resolve(GivenOptions const& given, CommandLine& line) {
     Replace(line.settings.numThreads, given.threads);
 
     // A window without a word about the view begins with the artefact beside its cure.
-    bool const saysNothing = !given.shading && !given.normals && !given.pair && !given.split && !given.splitPosition;
+    bool const saysNothing =
+        !given.shading && !given.normals && !given.pair && !given.split && !given.splitPosition;
     if (saysNothing && line.imageFile.empty()) view.split = SplitKind::SideBySide;
 }
 
@@ -249,9 +252,10 @@ std::optional<CommandLine> ParseCommandLine(std::vector<std::string> const& word
     app.set_version_flag("--version", "osd_shading_viewer " OSD_SHADING_VERSION, "Print the version and exit");
     std::string names;
     for (BuiltInModel const& model : BuiltInModels()) names += (names.empty() ? "" : " ") + std::string(model.name);
-    app.footer("Built-in models: " + names +
-               ".\nWithout --image or --figures a window opens; H lists its keys.\nExit status: 0, or 2 (bad usage or "
-               "input, or a picture that can't be made).");
+    app.footer(
+        "Built-in models: " + names +
+        ".\nWithout --image or --figures a window opens; H lists its keys.\nExit status: 0, or 2 (bad usage or "
+        "input, or a picture that can't be made).");
     app.get_formatter()->column_width(40);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
@@ -280,7 +284,8 @@ std::optional<CommandLine> ParseCommandLine(std::vector<std::string> const& word
     }
     Resolve(given, line);
     (void)line.settings.shading.Resolve();  // contradictions are usage errors
-    if (!line.imageFile.empty() && !line.figuresFolder.empty()) Refuse("--image", "and --figures exclude each other");
+    if (!line.imageFile.empty() && !line.figuresFolder.empty())
+        Refuse("--image", "and --figures exclude each other");
     if (app.count("--image") > 0 && line.imageFile.empty()) Refuse("--image", "the name is empty");
     if (app.count("--figures") > 0 && line.figuresFolder.empty()) Refuse("--figures", "the name is empty");
     return line;

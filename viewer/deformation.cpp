@@ -24,7 +24,8 @@ void Deform(Deformation const& deformation, std::vector<glm::vec3>& points) {
     for (glm::vec3& p : points) {
         float const height = p.y / half;  // -1 to 1
         switch (deformation.kind) {
-            case DeformationKind::None: break;
+            case DeformationKind::None:
+                break;
             case DeformationKind::Bend: {
                 float const angle = swing * kBendAngle;
                 if (std::abs(angle) < 1e-4F) break;
@@ -40,8 +41,8 @@ void Deform(Deformation const& deformation, std::vector<glm::vec3>& points) {
                 break;
             }
             case DeformationKind::Wave:
-                p.z += half * kWaveHeight * deformation.amount *
-                       std::sin(kTwoPi * (height / 2 - deformation.phase));
+                p.z +=
+                    half * kWaveHeight * deformation.amount * std::sin(kTwoPi * (height / 2 - deformation.phase));
                 break;
         }
     }

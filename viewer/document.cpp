@@ -18,8 +18,7 @@ Creases CreasesOf(io::Model const& model) {
     Creases creases;
     for (std::size_t i = 0; i < model.creaseSharpness.size(); ++i) {
         if (!(model.creaseSharpness[i] > 0)) continue;
-        float& sharpness =
-            creases.edges[MakeEdgeKey(model.creaseVertices[2 * i], model.creaseVertices[2 * i + 1])];
+        float& sharpness = creases.edges[MakeEdgeKey(model.creaseVertices[2 * i], model.creaseVertices[2 * i + 1])];
         sharpness = std::max(sharpness, model.creaseSharpness[i]);
     }
     for (std::size_t i = 0; i < model.cornerSharpness.size(); ++i) {

@@ -43,9 +43,8 @@ std::optional<EdgeKey> AcrossVertex(io::Model const& model, EdgeKey const& edge,
 
     std::set<int> ends;
     for (auto const& spoke : spokes) ends.insert(spoke.first);
-    bool const isEvenInside = ends.size() % 2 == 0 && std::all_of(ends.begin(), ends.end(), [&](int end) {
-                                  return spokes.count(end) == 2;
-                              });
+    bool const isEvenInside = ends.size() % 2 == 0 && std::all_of(ends.begin(), ends.end(),
+                                                                  [&](int end) { return spokes.count(end) == 2; });
     if (!isEvenInside) return std::nullopt;
 
     int previous = -1, current = OtherEnd(edge, vertex);

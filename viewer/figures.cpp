@@ -29,9 +29,10 @@ struct Panel {
     ShadingOptions options;
     ViewOptions view;
     CameraChoice camera;
-    std::optional<float> sharpness;   // in place of that of all creases
-    std::optional<VertexKind> vertex;  // looks at the first control vertex of this kind, extraordinary if there is one
-    float zoom = 1;                    // with `vertex`: share of the model that is seen
+    std::optional<float> sharpness;  // in place of that of all creases
+    std::optional<VertexKind>
+        vertex;      // looks at the first control vertex of this kind, extraordinary if there is one
+    float zoom = 1;  // with `vertex`: share of the model that is seen
 };
 
 /// A sheet: panels row by row.
@@ -100,9 +101,9 @@ Sheet SharpnessSheet() {
     for (Sdc::SchemeType scheme : {Sdc::SCHEME_CATMARK, Sdc::SCHEME_LOOP}) {
         bool const isLoop = scheme == Sdc::SCHEME_LOOP;
         for (float sharpness : {0.0F, 1.0F, 2.0F, 4.0F, 6.0F}) {
-            Panel panel = MakePanel(isLoop ? "cross_triangles" : "cross_quads", ShadingMode::Highlight,
-                                    NormalChoice::Blended,
-                                    std::string(isLoop ? "Loop" : "Catmull-Clark") + ", sharpness " + Words(sharpness));
+            Panel panel =
+                MakePanel(isLoop ? "cross_triangles" : "cross_quads", ShadingMode::Highlight, NormalChoice::Blended,
+                          std::string(isLoop ? "Loop" : "Catmull-Clark") + ", sharpness " + Words(sharpness));
             panel.mesh.scheme = scheme;
             panel.sharpness = sharpness;
             // A crease is followed to the level where it is released.
@@ -229,15 +230,16 @@ std::vector<Sheet> MakeSheets(std::string const& extraModels) {
         char const *name, *file;
         CameraChoice camera;
     };
-    for (Extra const& extra : {Extra{"figure8", "robot.obj", Direction(20, 10)},
-                               Extra{"figure9", "spot.obj", Direction(215, 15)}}) {
+    for (Extra const& extra :
+         {Extra{"figure8", "robot.obj", Direction(20, 10)}, Extra{"figure9", "spot.obj", Direction(215, 15)}}) {
         std::string const file = (std::filesystem::path(extraModels) / "zbk" / extra.file).string();
         std::error_code ignored;
         if (!extraModels.empty() && std::filesystem::exists(file, ignored)) {
             sheets.push_back(NormalsSheet(extra.name, {{file, extra.camera}}, kCatmark));
         }
     }
-    sheets.push_back(NormalsSheet("figure10", {{"letter_a", Direction(30, 15)}, {"axe", Direction(60, 15)}}, kCatmark));
+    sheets.push_back(
+        NormalsSheet("figure10", {{"letter_a", Direction(30, 15)}, {"axe", Direction(60, 15)}}, kCatmark));
     sheets.push_back(NormalsSheet(
         "figure11", {{"cross_triangles", Direction(35, 22)}, {"tetrahedron", Direction(35, 22)}}, kLoop));
     sheets.push_back(NormalsSheet("figure12", {{"hat", Direction(20, 25)}}, kLoop));
@@ -258,8 +260,9 @@ Image DrawPanel(Panel const& panel, glm::ivec2 size, PictureMaker& maker, SceneB
     if (panel.sharpness) {
         std::fill(model->creaseSharpness.begin(), model->creaseSharpness.end(), *panel.sharpness);
     }
-    SceneRequest const request{model, panel.model, panel.mesh.Rules(*model), panel.options,
-                               panel.view.Shows(NormalChoice::Subdivided), {}};
+    SceneRequest const request{
+        model, panel.model, panel.mesh.Rules(*model), panel.options, panel.view.Shows(NormalChoice::Subdivided),
+        {}};
     std::shared_ptr<Scene const> const scene = builder.Build(request, [](double) { return true; });
 
     CameraChoice camera = panel.camera;

@@ -36,15 +36,15 @@ private:
     GLuint _id;
 };
 
-#define OSD_SHADING_GL_KIND(Name, plural)                     \
-    struct Name##Kind {                                       \
-        static GLuint Make() {                                \
-            GLuint id = 0;                                    \
-            glGen##plural(1, &id);                            \
-            return id;                                        \
-        }                                                     \
+#define OSD_SHADING_GL_KIND(Name, plural)                           \
+    struct Name##Kind {                                             \
+        static GLuint Make() {                                      \
+            GLuint id = 0;                                          \
+            glGen##plural(1, &id);                                  \
+            return id;                                              \
+        }                                                           \
         static void Delete(GLuint id) { glDelete##plural(1, &id); } \
-    };                                                        \
+    };                                                              \
     using Gl##Name = GlObject<Name##Kind>
 OSD_SHADING_GL_KIND(Buffer, Buffers);
 OSD_SHADING_GL_KIND(VertexArray, VertexArrays);

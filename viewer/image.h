@@ -16,7 +16,9 @@ struct Image {
     Image() = default;
     Image(glm::ivec2 imageSize, glm::vec3 color);
 
-    std::uint8_t* Row(int y) { return pixels.data() + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x); }
+    std::uint8_t* Row(int y) {
+        return pixels.data() + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x);
+    }
     std::uint8_t const* Row(int y) const {
         return pixels.data() + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x);
     }

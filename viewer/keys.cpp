@@ -51,14 +51,29 @@ void ChangeSharpness(Workbench& bench, float step) {
 
 bool HandleControlKey(Workbench& bench, PanelState& state, int key, bool isShifted) {
     switch (key) {
-        case GLFW_KEY_Z: isShifted ? bench.Redo() : bench.Undo(); return true;
-        case GLFW_KEY_Y: bench.Redo(); return true;
-        case GLFW_KEY_S: bench.SaveCage(state.cageFile); return true;
-        case GLFW_KEY_C: ImGui::SetClipboardText(bench.settings.camera.Text().c_str()); return true;
-        case GLFW_KEY_V: PasteCamera(bench, ImGui::GetClipboardText()); return true;
-        case GLFW_KEY_A: bench.SelectAllCreases(); return true;
-        case GLFW_KEY_Q: state.wantsQuit = true; return true;
-        default: return false;
+        case GLFW_KEY_Z:
+            isShifted ? bench.Redo() : bench.Undo();
+            return true;
+        case GLFW_KEY_Y:
+            bench.Redo();
+            return true;
+        case GLFW_KEY_S:
+            bench.SaveCage(state.cageFile);
+            return true;
+        case GLFW_KEY_C:
+            ImGui::SetClipboardText(bench.settings.camera.Text().c_str());
+            return true;
+        case GLFW_KEY_V:
+            PasteCamera(bench, ImGui::GetClipboardText());
+            return true;
+        case GLFW_KEY_A:
+            bench.SelectAllCreases();
+            return true;
+        case GLFW_KEY_Q:
+            state.wantsQuit = true;
+            return true;
+        default:
+            return false;
     }
 }
 
@@ -70,8 +85,8 @@ bool HandleViewKey(Workbench& bench, PanelState& state, int key, bool isShifted)
         return true;
     }
     if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F7) {
-        static constexpr std::array<char const*, 7> kViews = {"front",  "back", "left",  "right",
-                                                              "top", "bottom", "corner"};
+        static constexpr std::array<char const*, 7> kViews = {"front", "back",   "left",  "right",
+                                                              "top",   "bottom", "corner"};
         SetStandardView(bench, kViews[static_cast<std::size_t>(key - GLFW_KEY_F1)]);
         return true;
     }
@@ -83,24 +98,47 @@ bool HandleViewKey(Workbench& bench, PanelState& state, int key, bool isShifted)
             if (normals == NormalChoice::Subdivided) bench.Apply();
             return true;
         }
-        case GLFW_KEY_S: view.split = Next(kSplitNames, view.split); return true;
-        case GLFW_KEY_R: view.overlays ^= kCreases; return true;
-        case GLFW_KEY_W: view.overlays ^= kWireframe; return true;
-        case GLFW_KEY_C: view.overlays ^= kCage; return true;
-        case GLFW_KEY_E: view.overlays ^= kEv | kDarts | kCorners; return true;
-        case GLFW_KEY_G: view.overlays ^= kRegions; return true;
+        case GLFW_KEY_S:
+            view.split = Next(kSplitNames, view.split);
+            return true;
+        case GLFW_KEY_R:
+            view.overlays ^= kCreases;
+            return true;
+        case GLFW_KEY_W:
+            view.overlays ^= kWireframe;
+            return true;
+        case GLFW_KEY_C:
+            view.overlays ^= kCage;
+            return true;
+        case GLFW_KEY_E:
+            view.overlays ^= kEv | kDarts | kCorners;
+            return true;
+        case GLFW_KEY_G:
+            view.overlays ^= kRegions;
+            return true;
         case GLFW_KEY_B:
             view.background = Next(kBackgroundNames, view.background);
             return true;
-        case GLFW_KEY_EQUAL: bench.settings.camera.camera.Zoom(kZoomStep, glm::vec2(0), 1); return true;
-        case GLFW_KEY_MINUS: bench.settings.camera.camera.Zoom(1 / kZoomStep, glm::vec2(0), 1); return true;
+        case GLFW_KEY_EQUAL:
+            bench.settings.camera.camera.Zoom(kZoomStep, glm::vec2(0), 1);
+            return true;
+        case GLFW_KEY_MINUS:
+            bench.settings.camera.camera.Zoom(1 / kZoomStep, glm::vec2(0), 1);
+            return true;
         case GLFW_KEY_LEFT:
         case GLFW_KEY_RIGHT:
         case GLFW_KEY_UP:
-        case GLFW_KEY_DOWN: MoveCamera(bench.settings.camera.camera, key, isShifted); return true;
-        case GLFW_KEY_F: state.wantsFrame = true; return true;
-        case GLFW_KEY_I: state.showsHud = !state.showsHud; return true;
-        default: return false;
+        case GLFW_KEY_DOWN:
+            MoveCamera(bench.settings.camera.camera, key, isShifted);
+            return true;
+        case GLFW_KEY_F:
+            state.wantsFrame = true;
+            return true;
+        case GLFW_KEY_I:
+            state.showsHud = !state.showsHud;
+            return true;
+        default:
+            return false;
     }
 }
 
@@ -141,16 +179,36 @@ bool HandleKey(Workbench& bench, PanelState& state, int key, int modifiers) {
     if (modifiers & GLFW_MOD_CONTROL) return HandleControlKey(bench, state, key, isShifted);
     switch (key) {
         case GLFW_KEY_H:
-        case GLFW_KEY_SLASH: state.showsHelp = !state.showsHelp; return true;
-        case GLFW_KEY_LEFT_BRACKET: ChangeLevel(bench, -1); return true;
-        case GLFW_KEY_RIGHT_BRACKET: ChangeLevel(bench, 1); return true;
-        case GLFW_KEY_L: bench.ExtendToChains(); return true;
-        case GLFW_KEY_COMMA: isShifted ? bench.SelectNextVertex(-1) : bench.SelectNextEdge(-1); return true;
-        case GLFW_KEY_PERIOD: isShifted ? bench.SelectNextVertex(1) : bench.SelectNextEdge(1); return true;
-        case GLFW_KEY_PAGE_UP: ChangeSharpness(bench, kSharpnessStep); return true;
-        case GLFW_KEY_PAGE_DOWN: ChangeSharpness(bench, -kSharpnessStep); return true;
-        case GLFW_KEY_HOME: bench.SetSelectedSharpness(io::kInfiniteSharpness); return true;
-        case GLFW_KEY_DELETE: bench.SetSelectedSharpness(0); return true;
+        case GLFW_KEY_SLASH:
+            state.showsHelp = !state.showsHelp;
+            return true;
+        case GLFW_KEY_LEFT_BRACKET:
+            ChangeLevel(bench, -1);
+            return true;
+        case GLFW_KEY_RIGHT_BRACKET:
+            ChangeLevel(bench, 1);
+            return true;
+        case GLFW_KEY_L:
+            bench.ExtendToChains();
+            return true;
+        case GLFW_KEY_COMMA:
+            isShifted ? bench.SelectNextVertex(-1) : bench.SelectNextEdge(-1);
+            return true;
+        case GLFW_KEY_PERIOD:
+            isShifted ? bench.SelectNextVertex(1) : bench.SelectNextEdge(1);
+            return true;
+        case GLFW_KEY_PAGE_UP:
+            ChangeSharpness(bench, kSharpnessStep);
+            return true;
+        case GLFW_KEY_PAGE_DOWN:
+            ChangeSharpness(bench, -kSharpnessStep);
+            return true;
+        case GLFW_KEY_HOME:
+            bench.SetSelectedSharpness(io::kInfiniteSharpness);
+            return true;
+        case GLFW_KEY_DELETE:
+            bench.SetSelectedSharpness(0);
+            return true;
         case GLFW_KEY_ESCAPE:
             if (state.showsHelp) {
                 state.showsHelp = false;
@@ -161,8 +219,12 @@ bool HandleKey(Workbench& bench, PanelState& state, int key, int modifiers) {
                 bench.Say({});
             }
             return true;
-        case GLFW_KEY_SPACE: TogglePlay(bench, state); return true;
-        case GLFW_KEY_P: state.wantsScreenshot = true; return true;
+        case GLFW_KEY_SPACE:
+            TogglePlay(bench, state);
+            return true;
+        case GLFW_KEY_P:
+            state.wantsScreenshot = true;
+            return true;
         case GLFW_KEY_M:
             state.isVisible = !state.isVisible;
             state.hasKeyboard = false;
@@ -170,7 +232,8 @@ bool HandleKey(Workbench& bench, PanelState& state, int key, int modifiers) {
         case GLFW_KEY_F10:
             state.isVisible = state.takesFocus = state.hasKeyboard = true;
             return true;
-        default: return HandleViewKey(bench, state, key, isShifted);
+        default:
+            return HandleViewKey(bench, state, key, isShifted);
     }
 }
 

@@ -19,8 +19,8 @@
 #include "figures.h"
 #include "modelInput.h"
 #include "offscreen.h"
-#include "outputTarget.h"
 #include "osd_shading/subdivisionShading.h"
+#include "outputTarget.h"
 #include "sceneBuilder.h"
 #include "window.h"
 
@@ -49,16 +49,19 @@ int MakeImage(CommandLine const& line) {
     for (std::string const& warning : model->warnings) PrintLine("warning", warning);
 
     SceneBuilder builder;
-    SceneRequest request{model, name, settings.mesh.Rules(*model), settings.shading.Resolve(),
-                         settings.view.Shows(NormalChoice::Subdivided), settings.deformation};
+    SceneRequest request{model,
+                         name,
+                         settings.mesh.Rules(*model),
+                         settings.shading.Resolve(),
+                         settings.view.Shows(NormalChoice::Subdivided),
+                         settings.deformation};
     request.options.execution.numThreads = settings.numThreads;
     std::shared_ptr<Scene const> const scene = builder.Build(request, [](double) { return true; });
 
     OffscreenContext const context;
     PictureMaker maker(line.scale);
-    WritePng(line.imageFile,
-             maker.Make(scene, settings.camera, settings.view, line.size.value_or(kDefaultSize), {},
-                        line.hasHud ? SceneLines(*scene) : std::vector<std::string>()));
+    WritePng(line.imageFile, maker.Make(scene, settings.camera, settings.view, line.size.value_or(kDefaultSize), {},
+                                        line.hasHud ? SceneLines(*scene) : std::vector<std::string>()));
     return kSuccess;
 }
 

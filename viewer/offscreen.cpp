@@ -25,13 +25,9 @@ OffscreenContext::OffscreenContext() : _display(EGL_NO_DISPLAY), _context(EGL_NO
 
     std::array<EGLint, 5> const configAttributes = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
                                                     EGL_OPENGL_BIT, EGL_NONE};
-    std::array<EGLint, 7> const contextAttributes = {EGL_CONTEXT_MAJOR_VERSION,
-                                                     3,
-                                                     EGL_CONTEXT_MINOR_VERSION,
-                                                     3,
-                                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                     EGL_NONE};
+    std::array<EGLint, 7> const contextAttributes = {
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint numConfigs = 0;
     bool const isReady = eglBindAPI(EGL_OPENGL_API) &&

@@ -13,8 +13,8 @@ constexpr float kArrowLength = 0.25F;  // of the scene's radius
 
 std::array<std::uint8_t, 4> Bytes(glm::vec3 const& color, float alpha = 1) {
     glm::vec4 const bytes = glm::round(glm::clamp(glm::vec4(color, alpha), 0.0F, 1.0F) * 255.0F);
-    return {static_cast<std::uint8_t>(bytes.x), static_cast<std::uint8_t>(bytes.y), static_cast<std::uint8_t>(bytes.z),
-            static_cast<std::uint8_t>(bytes.w)};
+    return {static_cast<std::uint8_t>(bytes.x), static_cast<std::uint8_t>(bytes.y),
+            static_cast<std::uint8_t>(bytes.z), static_cast<std::uint8_t>(bytes.w)};
 }
 
 }  // namespace
@@ -40,7 +40,8 @@ std::vector<OverlayItem> CreaseItems(Scene const& scene) {
         if (topology.IsIsolated(edge.vertices[0]) || topology.IsIsolated(edge.vertices[1])) continue;
         glm::vec3 const color =
             edge.isBoundary ? kBoundaryColor : ColorAt(kSharpnessScale, edge.controlSharpness / 10);
-        items.push_back({{topology.FirstValue(edge.vertices[0]), topology.FirstValue(edge.vertices[1])}, Bytes(color)});
+        items.push_back(
+            {{topology.FirstValue(edge.vertices[0]), topology.FirstValue(edge.vertices[1])}, Bytes(color)});
     }
     return items;
 }

@@ -59,8 +59,8 @@ void DrawFiles(Workbench& bench, PanelState& state) {
         }
         ImGui::EndCombo();
     }
-    bool const isEntered =
-        ImGui::InputTextWithHint("##file", "OBJ file, or drop one", &state.openFile, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool const isEntered = ImGui::InputTextWithHint("##file", "OBJ file, or drop one", &state.openFile,
+                                                    ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
     if ((ImGui::Button("Open") || isEntered) && !state.openFile.empty()) bench.Open(state.openFile);
 
@@ -107,7 +107,8 @@ bool DrawMethod(Workbench& bench) {
         hasChanged = true;
     }
     int const normalsFrom = std::max(options.startNormals.level, options.level == 0 ? 0 : 1);
-    hasChanged |= ChooseWord("start normals", given.startNormals, options.startNormals.kind, tool::kStartNormalNames);
+    hasChanged |=
+        ChooseWord("start normals", given.startNormals, options.startNormals.kind, tool::kStartNormalNames);
     // Normals of the file stand on the control mesh.
     if (options.startNormals.kind == StartNormalKind::User) {
         given.normalsFrom.reset();
@@ -116,7 +117,8 @@ bool DrawMethod(Workbench& bench) {
                                   options.startNormals.level < 0 ? normalsFrom : options.startNormals.level, level);
     }
     if (given.startNormals == StartNormalKind::User) given.normalsFrom.reset();
-    hasChanged |= ChooseWord("averaging", given.averaging, options.subdividedNormals.averaging, tool::kAveragingNames);
+    hasChanged |=
+        ChooseWord("averaging", given.averaging, options.subdividedNormals.averaging, tool::kAveragingNames);
     if (options.subdividedNormals.averaging == NormalAveraging::Spherical) {
         int steps = options.subdividedNormals.sphericalSteps;
         if (ImGui::SliderInt("steps", &steps, 0, 20)) {
@@ -127,7 +129,8 @@ bool DrawMethod(Workbench& bench) {
     hasChanged |= ChooseWord("weights", given.weights, options.weights.scheme, tool::kWeightNames);
     hasChanged |= ChooseLevel("weights from", given.weightsFrom,
                               options.weights.level < 0 ? std::min(1, level) : options.weights.level, level);
-    hasChanged |= ChooseWord("sharp vertices", given.sharpVertices, options.weights.sharpVertices, tool::kSharpVertexNames);
+    hasChanged |=
+        ChooseWord("sharp vertices", given.sharpVertices, options.weights.sharpVertices, tool::kSharpVertexNames);
     hasChanged |= ChooseWord("darts", given.darts, options.weights.darts, tool::kDartNames);
     auto exponent = static_cast<float>(options.weights.exponent);
     if (ImGui::SliderFloat("exponent p", &exponent, 0.05F, 8, "%.3g", ImGuiSliderFlags_Logarithmic)) {
@@ -177,7 +180,8 @@ bool DrawView(Workbench& bench, PanelState& state) {
             }
             break;
         }
-        default: break;
+        default:
+            break;
     }
     std::size_t column = 0;
     for (auto const& [name, overlay] : kOverlayNames) {
@@ -238,14 +242,15 @@ bool DrawMotion(Workbench& bench, PanelState& state) {
     deformation.phase = std::clamp(deformation.phase, 0.0F, 1.0F);
     deformation.amount = std::clamp(deformation.amount, 0.0F, 3.0F);
     auto const rate = [](double seconds) { return seconds > 0 ? 1 / seconds : 0; };
-    ImGui::Text("update %.1f ms (%.0f/s), draw %.1f ms (%.0f/s)", state.updateSeconds * 1e3, rate(state.updateSeconds),
-                state.drawSeconds * 1e3, rate(state.drawSeconds));
+    ImGui::Text("update %.1f ms (%.0f/s), draw %.1f ms (%.0f/s)", state.updateSeconds * 1e3,
+                rate(state.updateSeconds), state.drawSeconds * 1e3, rate(state.drawSeconds));
     return hasChanged;
 }
 
 void DrawCamera(Workbench& bench, PanelState& state) {
     CameraChoice& camera = bench.settings.camera;
-    static constexpr std::array<char const*, 7> kViews = {"front", "back", "left", "right", "top", "bottom", "corner"};
+    static constexpr std::array<char const*, 7> kViews = {"front", "back",   "left",  "right",
+                                                          "top",   "bottom", "corner"};
     for (std::size_t i = 0; i < kViews.size(); ++i) {
         if (i % 4 != 0) ImGui::SameLine();
         if (ImGui::Button(kViews[i])) SetStandardView(bench, kViews[i]);
@@ -278,8 +283,9 @@ void DrawProgress(Workbench& bench, glm::vec2 size, float scale) {
     if (bench.BusySeconds() < kProgressDelay) return;
     ImGui::SetNextWindowPos({size.x / 2, size.y - 20 * scale}, ImGuiCond_Always, {0.5F, 1});
     ImGui::SetNextWindowSize({320 * scale, 0});
-    ImGui::Begin("##progress", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoFocusOnAppearing |
-                                            ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::Begin("##progress", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::ProgressBar(static_cast<float>(bench.Progress()), {220 * scale, 0});
     ImGui::SameLine();
     if (ImGui::Button("Abandon")) bench.Abandon();
@@ -292,8 +298,9 @@ void DrawMessage(Workbench& bench, glm::vec2 size, float scale, float left) {
     ImGui::SetNextWindowSize({std::min(size.x - left - 20 * scale, 600 * scale), 0});
     ImGui::SetNextWindowBgAlpha(0.85F);
     bool isOpen = true;
-    ImGui::Begin("Message", &isOpen, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    ImGui::Begin("Message", &isOpen,
+                 ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     ImGui::TextWrapped("%s", bench.Message().c_str());
     ImGui::End();
     if (!isOpen) bench.Say({});
@@ -310,9 +317,8 @@ void DrawPanels(Workbench& bench, PanelState& state, glm::vec2 size, float scale
         ImGui::SetNextWindowPos({0, 0});
         ImGui::SetNextWindowSize({width, size.y});
         ImGui::Begin("##panel", nullptr,
-                     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
-                         ImGuiWindowFlags_NoBringToFrontOnFocus);
+                     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus);
         if (std::exchange(state.takesFocus, false)) ImGui::SetWindowFocus();
         ImGui::PushItemWidth(width * 0.55F);
         auto const section = [](char const* title, bool isOpen) {

@@ -23,7 +23,8 @@ struct PanelState {
     float creaseAngle = 40;
 };
 
-/// Draws all panels into the current Dear ImGui frame, for a window of `size` units. `scale`: units per letter size of
+/// Draws all panels into the current Dear ImGui frame, for a window of `size` units. `scale`: units per letter size
+/// of
 /// 1. The part of the window that is left for the scene begins at `PanelWidth`.
 void DrawPanels(Workbench& bench, PanelState& state, glm::vec2 size, float scale);
 

@@ -25,6 +25,7 @@ Pick PickAt(Scene const& scene, Camera const& camera, glm::vec2 size, glm::vec2 
 
 /// Where `point` is seen, in pixels from the upper left corner, and its distance along the view; nothing behind the
 /// eye.
-std::optional<glm::vec3> Project(Camera const& camera, Sphere const& bounds, glm::vec2 size, glm::vec3 const& point);
+std::optional<glm::vec3> Project(Camera const& camera, Sphere const& bounds, glm::vec2 size,
+                                 glm::vec3 const& point);
 
 }  // namespace osd_shading::viewer

@@ -34,10 +34,13 @@ void SetFloats(GLuint location, int count, std::size_t offset) {
 
 std::size_t OffsetOf(NormalChoice choice) {
     switch (choice) {
-        case NormalChoice::Limit: return offsetof(SurfaceVertex, limitNormal);
-        case NormalChoice::Subdivided: return offsetof(SurfaceVertex, subdividedNormal);
+        case NormalChoice::Limit:
+            return offsetof(SurfaceVertex, limitNormal);
+        case NormalChoice::Subdivided:
+            return offsetof(SurfaceVertex, subdividedNormal);
         case NormalChoice::Blended:
-        case NormalChoice::Face: break;
+        case NormalChoice::Face:
+            break;
     }
     return offsetof(SurfaceVertex, blendedNormal);
 }
@@ -68,7 +71,8 @@ std::vector<Viewport> ViewportsOf(ViewOptions const& view, glm::ivec2 size) {
         return {{{0, 0}, left, {0, 0}, left, view.left}, {{left.x, 0}, right, {left.x, 0}, right, view.right}};
     }
     int const at = std::clamp(static_cast<int>(view.splitPosition * static_cast<float>(size.x)), 0, size.x);
-    return {{{0, 0}, size, {0, 0}, {at, size.y}, view.left}, {{0, 0}, size, {at, 0}, {size.x - at, size.y}, view.right}};
+    return {{{0, 0}, size, {0, 0}, {at, size.y}, view.left},
+            {{0, 0}, size, {at, 0}, {size.x - at, size.y}, view.right}};
 }
 
 ViewFacts FindViewFacts(Scene const& scene, ViewOptions const& view) {
@@ -99,8 +103,8 @@ struct Renderer::Frame {
 
 struct Renderer::LineStyle {
     float width, opacity;
-    bool isHidden;     // draws also what lies behind the surface
-    float lift = 1;    // times that of the frame
+    bool isHidden;   // draws also what lies behind the surface
+    float lift = 1;  // times that of the frame
 };
 
 Renderer::Renderer()
@@ -251,8 +255,8 @@ void Renderer::drawRegions(Frame const& frame) {
     }
 }
 
-void Renderer::drawBatch(Frame const& frame, GlProgram const& program, Batch const& batch, TextureBuffer const& points,
-                         int stride, LineStyle const& style) {
+void Renderer::drawBatch(Frame const& frame, GlProgram const& program, Batch const& batch,
+                         TextureBuffer const& points, int stride, LineStyle const& style) {
     if (batch.count == 0) return;
     glUseProgram(program.Id());
     SetMatrix(program, "view", frame.view);

@@ -20,7 +20,7 @@ namespace osd_shading::viewer {
 
 /// The part of a target that one view covers; origin below left, as in GL.
 struct Viewport {
-    glm::ivec2 corner, size;      ///< of the whole view
+    glm::ivec2 corner, size;        ///< of the whole view
     glm::ivec2 cutCorner, cutSize;  ///< what of it is shown
     NormalChoice normals;
 

@@ -78,10 +78,14 @@ struct Scene {
 /// The normal of `vertex` that `choice` names; `Face` has none here.
 inline glm::vec3 NormalOf(SurfaceVertex const& vertex, NormalChoice choice) {
     switch (choice) {
-        case NormalChoice::Limit: return vertex.limitNormal;
-        case NormalChoice::Subdivided: return vertex.subdividedNormal;
-        case NormalChoice::Blended: return vertex.blendedNormal;
-        case NormalChoice::Face: break;
+        case NormalChoice::Limit:
+            return vertex.limitNormal;
+        case NormalChoice::Subdivided:
+            return vertex.subdividedNormal;
+        case NormalChoice::Blended:
+            return vertex.blendedNormal;
+        case NormalChoice::Face:
+            break;
     }
     return glm::vec3(0);
 }

@@ -39,8 +39,8 @@ std::vector<glm::vec3> PointsOf(io::Model const& model, glm::dvec3 const& origin
     std::vector<glm::vec3> points;
     points.reserve(model.positions.size() / 3);
     for (std::size_t i = 0; i < model.positions.size(); i += 3) {
-        points.emplace_back(
-            glm::dvec3(model.positions[i], model.positions[i + 1], model.positions[i + 2]) - origin);
+        points.emplace_back(glm::dvec3(model.positions[i], model.positions[i + 1], model.positions[i + 2]) -
+                            origin);
     }
     return points;
 }
@@ -176,8 +176,8 @@ std::shared_ptr<Scene> SceneBuilder::shade(SceneRequest const& request, std::vec
     scene->report = std::move(result.report);
 
     // Collect what is drawn; the connectivity stays while options of the shading alone change.
-    bool const keepsTopology = _topology && _model == request.model && IsSame(_rules, request.rules) &&
-                               _level == scene->options.level;
+    bool const keepsTopology =
+        _topology && _model == request.model && IsSame(_rules, request.rules) && _level == scene->options.level;
     if (!keepsTopology) {
         _topology = MakeSurfaceTopology(std::move(result), model.NumVertices());
         _model = request.model;
@@ -201,8 +201,8 @@ std::shared_ptr<Scene> SceneBuilder::evaluate(SceneRequest const& request, std::
         SceneRequest still = request;
         still.deformation = {};
         glm::dvec3 const origin = OriginOf(*request.model);
-        auto rest = shade(still, PointsOf(*request.model, origin),
-                          [&](double share) { return progress(share / 2); });
+        auto rest =
+            shade(still, PointsOf(*request.model, origin), [&](double share) { return progress(share / 2); });
         ShadingOptions const options =
             WithExecution(request.options, [&](double share) { return progress(0.5 + share / 4); });
         ShadingOptions everywhere =

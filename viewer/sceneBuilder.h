@@ -25,8 +25,8 @@ struct SceneRequest {
     Deformation deformation;
 };
 
-/// Computes scenes, and keeps between them what does not change. A model that moves is evaluated from tables, unless
-/// its options are such that there are none (averaging on the sphere or normalising; normals of the file).
+/// Computes scenes, and keeps between them what does not change. A model that moves is evaluated from tables,
+/// unless its options are such that there are none (averaging on the sphere or normalising; normals of the file).
 class SceneBuilder {
 public:
     /// `progress` as in ExecutionOptions.
@@ -49,7 +49,7 @@ private:
 
     /// What frames of a moving model share.
     struct Tables {
-        SceneRequest request;              // without its movement
+        SceneRequest request;               // without its movement
         std::shared_ptr<Scene const> rest;  // counts and connectivity
         ShadingEvaluator evaluator;
         std::optional<ShadingEvaluator> allSubdivided;  // with weight 1

@@ -64,9 +64,9 @@ AngleStatistics CompareNormals(Scene const& scene, NormalChoice left, NormalChoi
     double count = 0;
     auto const add = [&](glm::vec3 const& a, glm::vec3 const& b, int value) {
         if (glm::dot(a, a) == 0 || glm::dot(b, b) == 0) return;
-        double const angle = std::atan2(static_cast<double>(glm::length(glm::cross(a, b))),
-                                        static_cast<double>(glm::dot(a, b))) *
-                             kDegreesPerRadian;
+        double const angle =
+            std::atan2(static_cast<double>(glm::length(glm::cross(a, b))), static_cast<double>(glm::dot(a, b))) *
+            kDegreesPerRadian;
         count += 1;
         statistics.mean += (angle - statistics.mean) / count;
         if (angle > statistics.max || statistics.maxValue < 0) {

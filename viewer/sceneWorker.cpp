@@ -25,10 +25,17 @@ void SaveResult(SceneRequest const& request, std::string const& path, tool::Outp
     auto const run = tool::MakeInput<double>(request.file, model, request.options.startNormals.kind);
     ShadingResult<double> const result = ShadeSubdivision(model.Mesh(request.rules), run.input, request.options);
     switch (format) {
-        case tool::OutputFormat::None: break;
-        case tool::OutputFormat::Ply: io::WritePly(path, result); break;
-        case tool::OutputFormat::Obj: io::WriteObj(path, result); break;
-        case tool::OutputFormat::Usda: io::WriteUsd(path, result); break;
+        case tool::OutputFormat::None:
+            break;
+        case tool::OutputFormat::Ply:
+            io::WritePly(path, result);
+            break;
+        case tool::OutputFormat::Obj:
+            io::WriteObj(path, result);
+            break;
+        case tool::OutputFormat::Usda:
+            io::WriteUsd(path, result);
+            break;
     }
 }
 

@@ -26,7 +26,8 @@ struct WorkResult {
     bool isAbandoned = false;
 };
 
-/// Computes scenes and files on a thread of its own, one at a time. Of scenes only the last that is asked for counts.
+/// Computes scenes and files on a thread of its own, one at a time. Of scenes only the last that is asked for
+/// counts.
 class SceneWorker {
 public:
     /// `wake` is called, from that thread, when there is a result.

@@ -72,7 +72,7 @@ void AddView(Settings const& settings, SettingsWriter& text) {
     text.Add("shading", tool::NameOf(kShadingNames, view.shading));
     text.Add("normals", tool::NameOf(kNormalNames, view.normals));
     text.Add("split", std::string(tool::NameOf(kNormalNames, view.left)) + ',' +
-                         std::string(tool::NameOf(kNormalNames, view.right)));
+                          std::string(tool::NameOf(kNormalNames, view.right)));
     text.Add("split-kind", tool::NameOf(kSplitNames, view.split));
     text.AddNumber("split-line", view.splitPosition);
     std::string overlays;

@@ -70,12 +70,12 @@ float angularBand(vec2 v, float count) {
     return band(atan(v.y, v.x) * perRadian + 0.25, width * perRadian);
 }
 
-// Microfacets of GGX, with the masking of Schlick left out: a highlight, not a measurement.
+// The lobe of GGX microfacets with its peak at 1: a highlight, not a measurement.
 float highlight(vec3 normal, vec3 light, vec3 toEye) {
     float alpha = max(roughness * roughness, 0.003);
     float cosine = max(dot(normal, normalize(light + toEye)), 0.0);
-    float d = cosine * cosine * (alpha * alpha - 1.0) + 1.0;
-    return min(alpha * alpha / (kPi * d * d), 4.0) * 0.25 * max(dot(normal, light), 0.0);
+    float d = (cosine * cosine * (alpha * alpha - 1.0) + 1.0) / (alpha * alpha);
+    return max(dot(normal, light), 0.0) * (1.0 - 0.7 * roughness) / (d * d);
 }
 
 void main() {

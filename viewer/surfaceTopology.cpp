@@ -54,7 +54,8 @@ std::vector<CurveEdge> AddWires(SurfaceTopology& topology) {
     forEach([&](std::size_t low, HalfEdge const&) { ++offsets[low + 1]; });
     for (std::size_t i = 0; i < numVertices; ++i) offsets[i + 1] += offsets[i];
     std::vector<int> ends(offsets.begin(), offsets.end() - 1);
-    forEach([&](std::size_t low, HalfEdge const& edge) { halfEdges[static_cast<std::size_t>(ends[low]++)] = edge; });
+    forEach(
+        [&](std::size_t low, HalfEdge const& edge) { halfEdges[static_cast<std::size_t>(ends[low]++)] = edge; });
 
     // Bring those of one edge together.
     std::vector<CurveEdge> onCurves;
@@ -73,16 +74,15 @@ std::vector<CurveEdge> AddWires(SurfaceTopology& topology) {
             bool const isPair = end - begin == 2 && begin->isForward != (begin + 1)->isForward;
             topology.hidesBackFaces = topology.hidesBackFaces && isPair;
             if (isCurve) {
-                onCurves.push_back(
-                    {{static_cast<int>(low), begin->high}, {begin->lowValue, begin->highValue}});
+                onCurves.push_back({{static_cast<int>(low), begin->high}, {begin->lowValue, begin->highValue}});
             }
         }
     }
     return onCurves;
 }
 
-// Strings edges together to curves from control vertex to control vertex. A control vertex keeps its number at every
-// level, so that it is known by that; on the way each point has just two of the edges.
+// Strings edges together to curves from control vertex to control vertex. A control vertex keeps its number at
+// every level, so that it is known by that; on the way each point has just two of the edges.
 void AddCurves(std::vector<CurveEdge> const& edges, SurfaceTopology& topology) {
     auto const numVertices = static_cast<std::size_t>(topology.NumVertices());
     std::vector<int> offsets(numVertices + 1, 0), items(2 * edges.size());
@@ -99,7 +99,8 @@ void AddCurves(std::vector<CurveEdge> const& edges, SurfaceTopology& topology) {
 
     std::vector<bool> isUsed(edges.size(), false);
     for (int start = 0; start < std::min(topology.numControlVertices, topology.NumVertices()); ++start) {
-        for (int i = offsets[static_cast<std::size_t>(start)]; i < offsets[static_cast<std::size_t>(start) + 1]; ++i) {
+        for (int i = offsets[static_cast<std::size_t>(start)]; i < offsets[static_cast<std::size_t>(start) + 1];
+             ++i) {
             auto next = static_cast<std::size_t>(items[static_cast<std::size_t>(i)]);
             if (isUsed[next]) continue;
             ControlCurve curve{{start, start}, topology.curveValues.size(), 0};

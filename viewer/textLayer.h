@@ -8,8 +8,8 @@ struct ImGuiContext;
 
 namespace osd_shading::viewer {
 
-/// Text and plain shapes over a picture, in pixels from the upper left corner. Needs a current GL context as long as
-/// it lives. Independent of the window's panels, so that pictures without a window have the same legends.
+/// Text and plain shapes over a picture, in pixels from the upper left corner. Needs a current GL context as long
+/// as it lives. Independent of the window's panels, so that pictures without a window have the same legends.
 class TextLayer {
 public:
     /// `scale`: pixels per unit, the size of letters.

@@ -88,11 +88,11 @@ struct ViewOptions {
     NormalChoice normals = NormalChoice::Blended;
     SplitKind split = SplitKind::None;
     NormalChoice left = NormalChoice::Limit, right = NormalChoice::Blended;  ///< of a split, and of the difference
-    float splitPosition = 0.5F;                                              ///< share of the width, SplitKind::Line
+    float splitPosition = 0.5F;  ///< share of the width, SplitKind::Line
     std::uint32_t overlays = 0;
-    int lineCount = 24;       ///< bands round the full circle, or isophotes from 0 to 180 degrees
-    float lineAngle = 0;      ///< degrees; 0: the line lights run from left to right
-    float roughness = 0.35F;  ///< of the lit surface, 0 to 1
+    int lineCount = 24;          ///< bands round the full circle, or isophotes from 0 to 180 degrees
+    float lineAngle = 0;         ///< degrees; 0: the line lights run from left to right
+    float roughness = 0.35F;     ///< of the lit surface, 0 to 1
     std::optional<float> range;  ///< end of the scale: degrees (difference), 1 / model size (curvature)
     std::optional<int> vertex;   ///< whose regions are shown
     Background background = Background::Light;

@@ -38,7 +38,7 @@ constexpr glm::ivec2 kDefaultSize(1280, 800);
 constexpr float kPickReach = 8, kDragStart = 3, kSplitReach = 6;  // units of the screen
 constexpr float kOrbitPerUnit = 0.4F, kZoomPerNotch = 0.88F;
 constexpr double kDoubleClick = 0.35, kPeriod = 3;  // seconds
-constexpr int kSettlingFrames = 3;  // Dear ImGui needs some frames until its layout rests
+constexpr int kSettlingFrames = 3;                  // Dear ImGui needs some frames until its layout rests
 
 std::string GlfwMessage() {
     char const* text = nullptr;
@@ -201,15 +201,14 @@ private:
         glm::vec2 const pixel = (cursor - glm::vec2(left(), 0)) * _pixelsPerUnit;
         for (Viewport const& viewport : ViewportsOf(_bench.settings.view, sceneSize())) {
             glm::vec2 const inCut = pixel - glm::vec2(viewport.cutCorner);
-            bool const isInside = inCut.x >= 0 && inCut.y >= 0 && inCut.x < static_cast<float>(viewport.cutSize.x) &&
+            bool const isInside = inCut.x >= 0 && inCut.y >= 0 &&
+                                  inCut.x < static_cast<float>(viewport.cutSize.x) &&
                                   inCut.y < static_cast<float>(viewport.cutSize.y);
             if (isInside) return Place{pixel - glm::vec2(viewport.corner), glm::vec2(viewport.size)};
         }
         return std::nullopt;
     }
-    float splitX() const {
-        return left() + _bench.settings.view.splitPosition * (_size.x - left());
-    }
+    float splitX() const { return left() + _bench.settings.view.splitPosition * (_size.x - left()); }
 
     Camera& camera() { return _bench.settings.camera.camera; }
 
@@ -252,14 +251,21 @@ private:
         bool const begins = _drag == Drag::Pending && glm::distance(_cursor, _dragStart) > kDragStart * _unitScale;
         if (begins) _drag = Drag::Orbit;
         switch (_drag) {
-            case Drag::Orbit: camera().Orbit(-moved.x * kOrbitPerUnit, moved.y * kOrbitPerUnit); break;
-            case Drag::Pan: camera().Pan(moved / std::max(_size.y, 1.0F)); break;
+            case Drag::Orbit:
+                camera().Orbit(-moved.x * kOrbitPerUnit, moved.y * kOrbitPerUnit);
+                break;
+            case Drag::Pan:
+                camera().Pan(moved / std::max(_size.y, 1.0F));
+                break;
             case Drag::Split:
                 _bench.settings.view.splitPosition =
                     std::clamp((_cursor.x - left()) / std::max(_size.x - left(), 1.0F), 0.0F, 1.0F);
                 break;
-            case Drag::Pending: break;
-            case Drag::None: _isHoverOld = true; break;
+            case Drag::Pending:
+                break;
+            case Drag::None:
+                _isHoverOld = true;
+                break;
         }
     }
 
@@ -308,7 +314,8 @@ private:
         }
         _lastMovement = now;
         Deformation& deformation = _bench.settings.deformation;
-        deformation.phase = static_cast<float>(std::fmod(static_cast<double>(deformation.phase) + passed / kPeriod, 1.0));
+        deformation.phase =
+            static_cast<float>(std::fmod(static_cast<double>(deformation.phase) + passed / kPeriod, 1.0));
         _bench.Apply();
         touch();
     }
@@ -366,7 +373,8 @@ private:
         view.overlays |= kSelection;
         if (_pixelScale != _text->Scale()) _text.emplace(_pixelScale);
         glm::ivec2 const size = sceneSize();
-        std::tuple const drawn(_bench.CurrentScene(), camera(), view, _bench.ShownSelection(), size, _panel.showsHud);
+        std::tuple const drawn(_bench.CurrentScene(), camera(), view, _bench.ShownSelection(), size,
+                               _panel.showsHud);
         if (_drawn == drawn) return;
         _drawn = drawn;
         if (!_target || _target->Size() != size) _target.emplace(size);
@@ -448,7 +456,8 @@ private:
     glm::ivec2 _frameSize{0};
     float _pixelsPerUnit = 1, _pixelScale = 1, _unitScale = 1;
     int _frames = kSettlingFrames;
-    std::optional<std::tuple<std::shared_ptr<Scene const>, Camera, ViewOptions, Selection, glm::ivec2, bool>> _drawn;
+    std::optional<std::tuple<std::shared_ptr<Scene const>, Camera, ViewOptions, Selection, glm::ivec2, bool>>
+        _drawn;
 
     glm::vec2 _cursor{0}, _dragStart{0};
     Drag _drag = Drag::None;

@@ -10,8 +10,8 @@ namespace osd_shading {
 inline namespace v1 {
 namespace io {
 
-/// Writes a control mesh as Wavefront OBJ: `v`, `vt`, `vn` and `f`, and all else in OpenSubdiv's `t` tags. `ReadObj`
-/// reads the same model back, but for its name, lines and warnings.
+/// Writes a control mesh as Wavefront OBJ: `v`, `vt`, `vn` and `f`, and all else in OpenSubdiv's `t` tags.
+/// `ReadObj` reads the same model back, but for its name, lines and warnings.
 ///
 /// ERRORS: WriteError; nothing is then left.
 OSD_SHADING_API void WriteModel(std::string const& path, Model const& model);
