@@ -99,14 +99,9 @@ MadeClass TileCompiler::makeSplit(RegionLevels& outer, int outerLevel, int outer
 
     // The children, in the order in which the class sees them.
     std::vector<CompiledTile> children;
-    for (int i = 0; i < childFaces.size(); ++i) {
-        int const child = i < made.size ? (i + turned) % made.size : i;  // a triangle's last child is its middle
-        TileOwnership const childOwn = own.OfChild(i, k, isCatmark());
-        int const size = static_cast<int>(childOwn.corners.size());
-        int const childTurned = isNgon ? 0 : turned;
-        CompiledTile compiled = Compile(levels, level + 1, childFaces[child], k - 1, std::max(0, q - 1),
-                                        childOwn.Rotated((size - childTurned) % size));
-        compiled.rotation = (compiled.rotation + size - childTurned) % size;
+    for (ChildFace const& child : findChildren(levels, level, face, turned, k, own)) {
+        CompiledTile compiled = compile(levels, level + 1, child.face, k - 1, std::max(0, q - 1), child.own);
+        compiled.rotation = (compiled.rotation + child.size - child.turned) % child.size;
         TileClass const& childClass = _dictionary.classes[index(compiled.tileClass)];
         made.numPoints += childClass.numPoints;
         made.numLeaves += childClass.numLeaves;

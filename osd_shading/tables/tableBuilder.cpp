@@ -562,12 +562,9 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
     // Tiles and their classes.
     TileCompiler compiler({data.mesh.rules, options.limits.positions, options.limits.normals,
                            FaceWeightOf(options.startNormals.kind), hasSubdividedNormals, hasLocalWeights});
-    std::vector<CompiledTile> tiles;
-    tiles.reserve(index(base.GetNumFaces()));
-    for (int f = 0; f < base.GetNumFaces(); ++f) {
-        tiles.push_back(compiler.Compile(levels, 0, f, lastLevel, hasSubdividedNormals ? normalLevel : 0,
-                                         ownershipOf(topology, last, data, ownsMiddle, f)));
-    }
+    std::vector<CompiledTile> const tiles =
+        compiler.CompileAll(levels, lastLevel, hasSubdividedNormals ? normalLevel : 0,
+                            [&](int face) { return ownershipOf(topology, last, data, ownsMiddle, face); });
     std::vector<TileField> const fields = compiler.TakeFields();
     data.dictionary = compiler.Take();
 

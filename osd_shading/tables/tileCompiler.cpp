@@ -12,6 +12,9 @@ namespace {
 
 /// The largest k of an irregular tile that is a matrix: larger ones split.
 constexpr int kLargestDense = 3;
+/// The same of one that few tiles use, and how many are few: the matrix of 64 points takes as much as some 15
+/// bytes for each value of so many tiles.
+constexpr int kLargestRare = 2, kFewUses = 12;
 /// The same of a regular triangle, whose matrix all share.
 constexpr int kLargestDenseTriangle = 4;
 
@@ -67,7 +70,121 @@ bool TileCompiler::isRegularTriangle(RegionLevels& levels, int levelIndex, int f
     return true;
 }
 
-CompiledTile TileCompiler::Compile(RegionLevels& levels, int level, int face, int k, int q,
+TileCompiler::Neighborhood TileCompiler::identify(RegionLevels& levels, int levelIndex, int face, int k, int q,
+                                                  TileOwnership const& own) const {
+    // The same neighbourhood may be seen from any corner: from that with the smallest signs, and if there are
+    // several, from that which gives the smallest key.
+    Far::TopologyLevel const& level = levels.Level(levelIndex);
+    Far::ConstIndexArray const vertices = level.GetFaceVertices(face), edges = level.GetFaceEdges(face);
+    int const size = vertices.size();
+    std::vector<std::uint32_t> signs;
+    for (int i = 0; i < size; ++i) {
+        int const v = vertices[i];
+        auto const numEdges = static_cast<std::uint32_t>(level.GetVertexEdges(v).size());
+        auto const kind = static_cast<std::uint32_t>(levels.Regions(levelIndex).Kind(v));
+        signs.push_back(numEdges << 8 | kind << 5 | (IsSharpEdge(level, edges[i]) ? 16u : 0u) |
+                        static_cast<std::uint32_t>(own.edges[static_cast<std::size_t>(i)].Sign()) << 1 |
+                        (own.corners[static_cast<std::size_t>(i)] ? 1u : 0u));
+    }
+    auto const isBefore = [&](int a, int b) {
+        for (int i = 0; i < size; ++i) {
+            auto const x = signs[static_cast<std::size_t>((a + i) % size)],
+                       y = signs[static_cast<std::size_t>((b + i) % size)];
+            if (x != y) return x < y;
+        }
+        return false;
+    };
+    constexpr int kMostRotations = 8;
+    int const numRotations = size <= kMostRotations ? size : 1;
+    int first = 0;
+    for (int rotation = 1; rotation < numRotations; ++rotation) {
+        if (isBefore(rotation, first)) first = rotation;
+    }
+
+    Neighborhood found;
+    for (int rotation = first; rotation < numRotations; ++rotation) {
+        if (isBefore(first, rotation)) continue;
+        TileRing candidate = levels.Rings(levelIndex).Find(face, rotation, k);
+        if (candidate.isInLevelOrder && rotation != 0) {
+            // Its order is not ours to choose.
+            rotation = first = 0;
+            candidate = levels.Rings(levelIndex).Find(face, 0, k);
+        }
+        std::vector<std::int32_t> candidateKey{1, k, q};
+        candidate.AppendKey(candidateKey);
+        own.Rotated(rotation).AppendKey(candidateKey);
+        if (rotation == first || candidateKey < found.key) {
+            found.key.swap(candidateKey);
+            found.ring = std::move(candidate);
+            found.rotation = rotation;
+        }
+        if (found.ring.isInLevelOrder) break;
+    }
+    return found;
+}
+
+std::vector<TileCompiler::ChildFace> TileCompiler::findChildren(RegionLevels& levels, int level, int face,
+                                                                int rotation, int k,
+                                                                TileOwnership const& own) const {
+    Far::ConstIndexArray const childFaces = levels.Level(level).GetFaceChildFaces(face);
+    int const size = static_cast<int>(own.corners.size());
+    std::vector<ChildFace> children;
+    for (int i = 0; i < childFaces.size(); ++i) {
+        ChildFace child;
+        child.face = childFaces[i < size ? (i + rotation) % size : i];  // a triangle's last child is its middle
+        child.size = isCatmark() ? 4 : 3;
+        child.turned = isCatmark() && size != 4 ? 0 : rotation;
+        child.own = own.OfChild(i, k, isCatmark()).Rotated((child.size - child.turned) % child.size);
+        children.push_back(std::move(child));
+    }
+    return children;
+}
+
+void TileCompiler::countUses(RegionLevels& levels, int k, int q,
+                             std::function<TileOwnership(int)> const& ownershipOf) {
+    // Of tiles that may be matrices, and of those whose children may; each kind of these is looked at once.
+    if (k != kLargestDense && k != kLargestDense + 1) return;
+    struct Parent {
+        int face, rotation, uses;
+        TileOwnership own;
+    };
+    std::vector<Parent> parents;
+    ClassMap parentOfKey;
+    bool const isLimit = isCatmark() && _contents.normals == LimitNormalKind::Limit;
+    for (int f = 0; f < levels.Level(0).GetNumFaces(); ++f) {
+        if (isLimit && findSharpSides(levels, 0, f, k)) continue;
+        TileOwnership const own = ownershipOf(f);
+        Neighborhood neighborhood = identify(levels, 0, f, k, q, own);
+        if (k == kLargestDense) {
+            ++_usesOfKey[std::move(neighborhood.key)];
+            continue;
+        }
+        auto const [known, isNew] =
+            parentOfKey.emplace(std::move(neighborhood.key), static_cast<int>(parents.size()));
+        int const rotation = neighborhood.rotation;
+        if (isNew) parents.push_back({f, rotation, 0, own.Rotated(rotation)});
+        ++parents[static_cast<std::size_t>(known->second)].uses;
+    }
+    if (levels.Topology().LastLevel() < 1) return;
+    for (Parent const& parent : parents) {
+        for (ChildFace const& child : findChildren(levels, 0, parent.face, parent.rotation, k, parent.own)) {
+            if (isLimit && findSharpSides(levels, 1, child.face, k - 1)) continue;
+            _usesOfKey[identify(levels, 1, child.face, k - 1, std::max(0, q - 1), child.own).key] += parent.uses;
+        }
+    }
+}
+
+std::vector<CompiledTile> TileCompiler::CompileAll(RegionLevels& levels, int k, int q,
+                                                   std::function<TileOwnership(int)> const& ownershipOf) {
+    countUses(levels, k, q, ownershipOf);
+    std::vector<CompiledTile> tiles;
+    int const numFaces = levels.Level(0).GetNumFaces();
+    tiles.reserve(static_cast<std::size_t>(numFaces));
+    for (int f = 0; f < numFaces; ++f) tiles.push_back(compile(levels, 0, f, k, q, ownershipOf(f)));
+    return tiles;
+}
+
+CompiledTile TileCompiler::compile(RegionLevels& levels, int level, int face, int k, int q,
                                    TileOwnership const& own) {
     if (isCatmark() && _contents.normals == LimitNormalKind::Limit) {
         if (auto const sides = findSharpSides(levels, level, face, k)) {
@@ -75,32 +192,19 @@ CompiledTile TileCompiler::Compile(RegionLevels& levels, int level, int face, in
         }
     }
 
-    // The same neighbourhood may be seen from any corner: take the one with the smallest key.
-    int const size = static_cast<int>(own.corners.size());
-    bool const isRegular = !isCatmark() && isRegularTriangle(levels, level, face);
+    Neighborhood neighborhood = identify(levels, level, face, k, q, own);
+    TileRing const& ring = neighborhood.ring;
     CompiledTile tile;
-    TileRing ring;
-    std::vector<std::int32_t> key;
-    constexpr int kMostRotations = 8;
-    for (int rotation = 0; rotation < (size <= kMostRotations ? size : 1); ++rotation) {
-        TileRing candidate = levels.Rings(level).Find(face, rotation, k);
-        std::vector<std::int32_t> candidateKey{1, k, q};
-        candidate.AppendKey(candidateKey);
-        own.Rotated(rotation).AppendKey(candidateKey);
-        if (rotation == 0 || candidateKey < key) {
-            key.swap(candidateKey);
-            ring = std::move(candidate);
-            tile.rotation = rotation;
-        }
-        if (ring.isInLevelOrder) break;
-    }
-
-    auto const known = _classOfKey.find(key);
+    tile.rotation = neighborhood.rotation;
+    auto const known = _classOfKey.find(neighborhood.key);
     if (known != _classOfKey.end()) {
         tile.tileClass = known->second;
     } else {
-        int const largest = isRegular && q <= 1 ? kLargestDenseTriangle : kLargestDense;
-        bool const isNgon = isCatmark() && size != 4;
+        bool const isRegular = !isCatmark() && isRegularTriangle(levels, level, face);
+        auto const uses = _usesOfKey.find(neighborhood.key);
+        bool const isRare = uses != _usesOfKey.end() && uses->second < kFewUses;
+        int const largest = isRegular && q <= 1 ? kLargestDenseTriangle : isRare ? kLargestRare : kLargestDense;
+        bool const isNgon = isCatmark() && own.corners.size() != 4;
         TileOwnership const turned = own.Rotated(tile.rotation);
         MadeClass made;
         if (isNgon || k > largest) {
@@ -111,7 +215,7 @@ CompiledTile TileCompiler::Compile(RegionLevels& levels, int level, int face, in
             made = makeDense(ringLevels, 0, ring.tileFace, k, q, turned, false);
         }
         tile.tileClass = addClass(std::move(made));
-        _classOfKey.emplace(std::move(key), tile.tileClass);
+        _classOfKey.emplace(std::move(neighborhood.key), tile.tileClass);
     }
 
     ClassSources const& sources = _sources[static_cast<std::size_t>(tile.tileClass)];

@@ -3,6 +3,7 @@
 
 // Internal: not installed, not for users.
 
+#include <functional>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -56,9 +57,10 @@ class TileCompiler {
 public:
     explicit TileCompiler(TileContents const& contents) : _contents(contents) {}
 
-    /// The tile of face `face` of `level`: it has 2^k faces along a side in the end (a face that is no quad: its
-    /// children 2^(k-1)), and normals that start q levels further down.
-    CompiledTile Compile(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own);
+    /// The tiles of all faces of level 0: each has 2^k faces along a side in the end (a face that is no quad: its
+    /// children 2^(k-1)), and normals that start q levels further down. `ownershipOf`: by face.
+    std::vector<CompiledTile> CompileAll(RegionLevels& levels, int k, int q,
+                                         std::function<TileOwnership(int)> const& ownershipOf);
 
     /// How b is refined, by class; asked for before `Take`.
     std::vector<TileField> TakeFields() { return std::move(_fields); }
@@ -73,6 +75,16 @@ private:
     using ClassMap = std::unordered_map<std::vector<std::int32_t>, int, KeyHash>;
 
     bool isCatmark() const { return _contents.rules.scheme == Sdc::SCHEME_CATMARK; }
+    /// A tile's ring as its class sees it.
+    struct Neighborhood {
+        TileRing ring;
+        std::vector<std::int32_t> key;
+        int rotation = 0;
+    };
+    Neighborhood identify(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own) const;
+    CompiledTile compile(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own);
+    /// Counts how often each class that may be a matrix will be used, as far as `levels` go.
+    void countUses(RegionLevels& levels, int k, int q, std::function<TileOwnership(int)> const& ownershipOf);
     int addClass(MadeClass&& made);
 
     // Splines.
@@ -85,6 +97,14 @@ private:
     void useBases(int k, int q);
 
     // Tiles that split.
+    /// A child of a face; its corner `turned` is the first as the parent's class sees it.
+    struct ChildFace {
+        int face = 0, size = 4, turned = 0;
+        TileOwnership own;  ///< from its corner 0 on
+    };
+    /// In the order in which the class sees them, from corner `rotation` of the face on; so does `own`.
+    std::vector<ChildFace> findChildren(RegionLevels& levels, int level, int face, int rotation, int k,
+                                        TileOwnership const& own) const;
     MadeClass makeSplit(RegionLevels& levels, int level, int face, TileRing const& ring, int rotation, int k, int q,
                         TileOwnership const& own);
 
@@ -101,7 +121,7 @@ private:
     TileDictionary _dictionary;
     std::vector<ClassSources> _sources;  // by class
     std::vector<TileField> _fields;      // by class
-    ClassMap _classOfKey;
+    ClassMap _classOfKey, _usesOfKey;
     std::vector<std::size_t> _planOffsets, _weightOffsets;
     std::unordered_multimap<std::uint64_t, int> _planOfHash, _matrixOfHash;
 };

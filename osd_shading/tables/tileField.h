@@ -24,7 +24,7 @@ struct FieldStage {
     std::vector<int> seeds;
     /// Whether the middle of a face that is no quad has its vertex in its ring, and whether it has its region.
     std::vector<unsigned char> isVertexNearNgon, isNearNgon;
-    std::vector<VertexKind> kinds;          ///< of its vertex
+    std::vector<VertexKind> kinds;  ///< of its vertex
     static constexpr int kNew = -1, kNgonCenter = -2;
     std::vector<int> origins;  ///< the value of the level before whose vertex became this one's; or one of those
 

@@ -32,6 +32,8 @@ public:
     bool HasMiddle(int k) const { return Has((1 << (k - 1)) - 1, k); }
 
     void AppendKey(std::vector<std::int32_t>& key) const;
+    /// The same for equal ones, 0 to 7.
+    int Sign() const { return static_cast<int>(_kind); }
 
 private:
     enum class Kind : std::int32_t { None, All, Half, HalfAndMiddle, Some };
