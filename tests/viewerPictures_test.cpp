@@ -126,9 +126,12 @@ TEST_P(Pictures, EachOverlayAddsItsColoursAndNothingElse) {
     EXPECT_EQ(darts.NumNear({0, 140, 153}, 20) > 20, hasDarts);
 }
 
+using ModelAndScheme = std::tuple<std::string, std::string>;
 INSTANTIATE_TEST_SUITE_P(All, Pictures,
-                         testing::Combine(testing::Values("tetrahedron", "cross_triangles", "hat"),
-                                          testing::Values("catmark", "loop")),
+                         testing::Values(ModelAndScheme("tetrahedron", "catmark"),
+                                         ModelAndScheme("tetrahedron", "loop"),
+                                         ModelAndScheme("cross_triangles", "catmark"),
+                                         ModelAndScheme("hat", "loop")),
                          [](auto const& test) { return std::get<0>(test.param) + "_" + std::get<1>(test.param); });
 
 TEST(CornerPicture, MarksCornersWhereThereAreSome) {
@@ -323,13 +326,13 @@ std::string MirroredObj(std::string const& model) {
 TEST(WholePicture, IsMirroredWhenTheModelIs) {
     TemporaryFolder const folder;
     // Of these the sharpness stands in tags, which don't depend on the order of a face's corners.
-    for (std::string const model : {"mug", "cube_dart", "letter_a"}) {
+    for (std::string const model : {"mug", "cube_dart"}) {
         std::string const file = folder.File(model + ".obj");
         ioFiles::WriteBytes(file, MirroredObj(model));
-        for (std::string const mode : {"highlight", "isophotes", "weight"}) {
+        for (std::string const mode : {"highlight", "weight"}) {
             SCOPED_TRACE(model + mode);
             // Fine quads: how they are cut into triangles is not symmetric.
-            Words const words = {"--size", "200x150", "--level", "5",         "--legend",
+            Words const words = {"--size", "200x150", "--level", "4",         "--legend",
                                  "off",    "--lines", "8",       "--shading", mode};
             Picture const picture = Draw(Joined({ModelPath(model), "--camera", "orbit?yaw=35&pitch=20"}, words));
             Picture const mirrored = Draw(Joined({file, "--camera", "orbit?yaw=-35&pitch=20"}, words));

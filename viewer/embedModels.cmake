@@ -23,9 +23,9 @@ file(WRITE "${OUTPUT}" "// Made by viewer/embedModels.cmake.
 namespace osd_shading::viewer {
 
 std::vector<BuiltInModel> const& BuiltInModels() {
-    static std::vector<BuiltInModel> const models = {
+    static std::vector<BuiltInModel> const kModels = {
 ${entries}    };
-    return models;
+    return kModels;
 }
 
 }  // namespace osd_shading::viewer

@@ -227,7 +227,7 @@ std::vector<Sheet> MakeSheets(std::string const& extraModels) {
                                  LevelSheet(),      DartSheet(),      RegionSheet()};
     constexpr Sdc::SchemeType kCatmark = Sdc::SCHEME_CATMARK, kLoop = Sdc::SCHEME_LOOP;
     struct Extra {
-        char const *name, *file;
+        char const *name = "", *file = "";
         CameraChoice camera;
     };
     for (Extra const& extra :

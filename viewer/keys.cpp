@@ -145,7 +145,7 @@ bool HandleViewKey(Workbench& bench, PanelState& state, int key, bool isShifted)
 }  // namespace
 
 std::vector<KeyHelp> const& KeyHelpLines() {
-    static std::vector<KeyHelp> const lines = {
+    static std::vector<KeyHelp> const kLines = {
         {"drag, arrows", "turn"},
         {"right drag, Shift+arrows", "shift"},
         {"wheel, = and -", "come nearer (to the cursor), go away"},
@@ -171,7 +171,7 @@ std::vector<KeyHelp> const& KeyHelpLines() {
         {"F10", "keyboard to the panel (arrows, Space, Enter); Escape: back"},
         {"H or ?", "this list"},
         {"Ctrl+Q", "quit"}};
-    return lines;
+    return kLines;
 }
 
 bool HandleKey(Workbench& bench, PanelState& state, int key, int modifiers) {

@@ -102,9 +102,9 @@ struct Renderer::Frame {
 };
 
 struct Renderer::LineStyle {
-    float width, opacity;
-    bool isHidden;   // draws also what lies behind the surface
-    float lift = 1;  // times that of the frame
+    float width = 1, opacity = 1;
+    bool isHidden = false;  // draws also what lies behind the surface
+    float lift = 1;         // times that of the frame
 };
 
 Renderer::Renderer()
