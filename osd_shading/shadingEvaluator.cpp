@@ -499,23 +499,6 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
         return;
     }
 
-    if (needsTangents) {
-        Frame2 const& f = place.frame;
-        auto const turn = [&](float* du, float* dv) {
-            for (int i = 0; i < numPoints; ++i) {
-                float const a = du[i], b = dv[i];
-                du[i] = f.a * a + f.b * b;
-                dv[i] = f.c * a + f.d * b;
-            }
-        };
-        turn(worker.tangent1.x, worker.tangent2.x);
-        turn(worker.tangent1.y, worker.tangent2.y);
-        turn(worker.tangent1.z, worker.tangent2.z);
-        float const scale = std::max(std::fabs(f.a) + std::fabs(f.b), std::fabs(f.c) + std::fabs(f.d)) / 2;
-        doubt1 *= scale;
-        doubt2 *= scale;
-    }
-
     LeafFrame leaf{};
     leaf.numPoints = numPoints;
     for (int axis = 0; axis < 3; ++axis) leaf.origin[axis] = place.origin[axis];
@@ -540,7 +523,24 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
         }
     }
     leaf.doubtful = worker.doubtful.data();
+    LeafFrame::Output const du = std::exchange(leaf.tangents1, {}), dv = std::exchange(leaf.tangents2, {});
     kernels->finish(leaf);
+    if (needsTangents) {
+        // As the tile sees them. N_L is made of those of the class, the same bits whether they are wanted or not.
+        Frame2 const& f = place.frame;
+        auto const turn = [&](LeafFrame::Output const& output, float ofU, float ofV) {
+            if (output.data == nullptr) return;
+            FieldArrays const &u = worker.tangent1, &v = worker.tangent2;
+            for (std::size_t i = 0; i < index(numPoints); ++i) {
+                float* const target = output.data + i * output.stride;
+                target[0] = ofU * u.x[i] + ofV * v.x[i];
+                target[1] = ofU * u.y[i] + ofV * v.y[i];
+                target[2] = ofU * u.z[i] + ofV * v.z[i];
+            }
+        };
+        turn(du, f.a, f.b);
+        turn(dv, f.c, f.d);
+    }
     if (leaf.numDoubtful > 0) settle(leaf, tileClass, place, static_cast<int>(value), visit);
 
     std::vector<float> const& weights = data->blendWeights.empty() ? data->blendPowers : data->blendWeights;

@@ -100,7 +100,7 @@ ShadingResult<Real> Shade(CommandLine const& line, ControlMesh const& mesh, Shad
 
 // Builds a table of the same mesh, and times frames where they are wanted.
 void RunFrames(CommandLine const& line, io::Model const& model, ControlMesh const& mesh, RunSummary& run) {
-    RunInput<float> const input = MakeInput<float>(line, model);
+    RunInput<float> const input = MakeInput<float>(line.modelFile, model, line.shading.startNormals.kind);
     ShadingOptions options = line.shading;
     options.execution.memoryLimit = MemoryLimit(line);
     ShadingTable const table = Timed(run.seconds, "table", [&] { return ShadingTable(mesh, options); });
