@@ -9,9 +9,11 @@ install(TARGETS ${installed} EXPORT osd_shadingTargets
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
         RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-if(TARGET osd_shade)
-    install(TARGETS osd_shade RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-endif()
+foreach(program IN ITEMS osd_shade osd_shading_viewer)
+    if(TARGET ${program})
+        install(TARGETS ${program} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+    endif()
+endforeach()
 foreach(target IN LISTS installed)
     get_target_property(headers ${target} OSD_SHADING_PUBLIC_HEADERS)
     get_target_property(folder ${target} SOURCE_DIR)

@@ -15,18 +15,10 @@ inline namespace v1 {
 
 namespace {
 
-bool countsAsSharp(BlendWeightOptions const& options, VertexKind kind) {
-    return kind >= VertexKind::Crease || (kind == VertexKind::Dart && options.darts == DartWeight::LikeSharp);
-}
-
 /// What the vertex-vertex child of `vertex` is at the last level.
 VertexKind kindAtLastLevel(RefinedTopology const& topology, int level, int vertex, CreaseRegions const& last) {
     for (int l = level; l < topology.LastLevel(); ++l) vertex = topology.Level(l).GetVertexChildVertex(vertex);
     return last.Kind(vertex);
-}
-
-bool isRegularCreaseRegion(bool isCatmark, std::size_t numFaces) {
-    return isCatmark ? numFaces == 2 : numFaces == 1 || numFaces == 3;
 }
 
 void markRegionsOf(BlendWeightOptions const& options, RefinedTopology const& topology, int levelIndex,
@@ -48,7 +40,7 @@ void markRegionsOf(BlendWeightOptions const& options, RefinedTopology const& top
             for (RegionFan const& fan : fans) {
                 bool const isRegular = kind == VertexKind::Corner
                                            ? fan.faces.size() == 1
-                                           : isRegularCreaseRegion(topology.IsCatmark(), fan.faces.size());
+                                           : IsRegularCreaseRegion(topology.IsCatmark(), fan.faces.size());
                 eligible[static_cast<std::size_t>(fan.value)] = !isRegular;
             }
         }
@@ -64,7 +56,7 @@ ValueMarks findEligible(BlendWeightOptions const& options, RefinedTopology const
     }
     Far::TopologyLevel const& level = topology.Level(levelIndex);
     for (int v = 0; v < regions.NumVertices(); ++v) {
-        if (options.sharpVertices == SharpVertexWeight::Zero && countsAsSharp(options, regions.Kind(v))) continue;
+        if (options.sharpVertices == SharpVertexWeight::Zero && CountsAsSharp(options, regions.Kind(v))) continue;
         if (!IsExtraordinary(topology, level, v)) continue;
         for (int i = 0; i < regions.NumVertexValues(v); ++i) {
             eligible[static_cast<std::size_t>(regions.FirstValue(v) + i)] = 1;
@@ -86,9 +78,10 @@ void forEachMarkedVertex(CreaseRegions const& regions, ValueMarks const& marks, 
     }
 }
 
-/// Sets b = 1 on the rings of eligible vertices, or of their regions.
+}  // namespace
+
 template <typename Real>
-void seedRings(BlendWeightOptions const& options, Far::TopologyLevel const& level, CreaseRegions const& regions,
+void SeedRings(BlendWeightOptions const& options, Far::TopologyLevel const& level, CreaseRegions const& regions,
                ValueMarks const& eligible, std::vector<Real>& weights) {
     bool const isPerRegion = options.sharpVertices == SharpVertexWeight::PerRegion;
     bool const skipsSharp = options.sharpVertices == SharpVertexWeight::Zero;
@@ -102,7 +95,7 @@ void seedRings(BlendWeightOptions const& options, Far::TopologyLevel const& leve
                 int const u = vertices[k];
                 if (isPerRegion) {
                     weights[static_cast<std::size_t>(regions.CornerValue(faces[i], k))] = 1;
-                } else if (!skipsSharp || !countsAsSharp(options, regions.Kind(u))) {
+                } else if (!skipsSharp || !CountsAsSharp(options, regions.Kind(u))) {
                     std::fill(weights.begin() + regions.FirstValue(u), weights.begin() + regions.FirstValue(u + 1),
                               Real(1));
                 }
@@ -110,6 +103,8 @@ void seedRings(BlendWeightOptions const& options, Far::TopologyLevel const& leve
         }
     });
 }
+
+namespace {
 
 /// Eligible values whose vertex was not yet eligible at the level before: no region that they came from was.
 ValueMarks findNewlyEligible(RefinedTopology const& topology, int levelIndex, CreaseRegions const& parentRegions,
@@ -226,7 +221,7 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
         // Seed on top of it.
         ValueMarks eligible = findEligible(options, topology, level, here, last);
         if (options.scheme == WeightScheme::OneRing) {
-            seedRings(options, topology.Level(level), here, eligible, weights);
+            SeedRings(options, topology.Level(level), here, eligible, weights);
             continue;
         }
         ValueMarks const isNew =
@@ -255,9 +250,11 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
     return weights;
 }
 
-#define OSD_SHADING_INSTANTIATE(Real)                                                                 \
-    template std::vector<Real> ComputeBlendWeights(BlendWeightOptions const&, RefinedTopology const&, \
-                                                   FieldLevels<Real> const&, LimitStep<Real> const&, int);
+#define OSD_SHADING_INSTANTIATE(Real)                                                                      \
+    template std::vector<Real> ComputeBlendWeights(BlendWeightOptions const&, RefinedTopology const&,      \
+                                                   FieldLevels<Real> const&, LimitStep<Real> const&, int); \
+    template void SeedRings(BlendWeightOptions const&, Far::TopologyLevel const&, CreaseRegions const&,    \
+                            ValueMarks const&, std::vector<Real>&);
 OSD_SHADING_INSTANTIATE(float)
 OSD_SHADING_INSTANTIATE(double)
 #undef OSD_SHADING_INSTANTIATE

@@ -30,5 +30,20 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
                                       FieldLevels<Real> const& levels, LimitStep<Real> const& limit,
                                       int numThreads);
 
+/// Sets b = 1 on the rings of eligible vertices of a level, or of their regions.
+template <typename Real>
+void SeedRings(BlendWeightOptions const& options, Far::TopologyLevel const& level, CreaseRegions const& regions,
+               ValueMarks const& eligible, std::vector<Real>& weights);
+
+/// Whether a vertex of this kind is a sharp one to b.
+inline bool CountsAsSharp(BlendWeightOptions const& options, VertexKind kind) {
+    return kind >= VertexKind::Crease || (kind == VertexKind::Dart && options.darts == DartWeight::LikeSharp);
+}
+
+/// Whether a region of a crease vertex has the regular number of faces.
+inline bool IsRegularCreaseRegion(bool isCatmark, std::size_t numFaces) {
+    return isCatmark ? numFaces == 2 : numFaces == 1 || numFaces == 3;
+}
+
 }  // namespace v1
 }  // namespace osd_shading

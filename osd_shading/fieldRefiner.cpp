@@ -275,6 +275,21 @@ void FieldStep<Real>::AppendTerms(int childVertex, int childValue, std::vector<s
 }
 
 template <typename Real>
+void FieldStep<Real>::AppendMaskTerms(int childVertex, int childValue,
+                                      std::vector<std::pair<int, Real>>& terms) const {
+    if (!_isSpecial.empty() && _isSpecial[static_cast<std::size_t>(childVertex)]) {
+        _special.AppendTerms(childValue, terms);
+        return;
+    }
+    auto const row = static_cast<std::size_t>(_masks->Row(childVertex));
+    for (int t = _masks->offsets[row]; t < _masks->offsets[row + 1]; ++t) {
+        int const term = _masks->terms[static_cast<std::size_t>(t)];
+        terms.emplace_back(term >= 0 ? _parent->FirstValue(term) : ~_child->FirstValue(~term),
+                           _masks->weights[static_cast<std::size_t>(t)]);
+    }
+}
+
+template <typename Real>
 std::vector<Vec3<Real>> RefinePoints(LevelMasks<Real> const& masks, std::vector<Vec3<Real>> const& points,
                                      int numThreads) {
     std::vector<Vec3<Real>> refined(static_cast<std::size_t>(masks.numChildVertices));

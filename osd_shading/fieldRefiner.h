@@ -82,6 +82,9 @@ public:
     /// Appends the terms (parent value, weight) of a child value's mask, face points expanded.
     void AppendTerms(int childVertex, int childValue, std::vector<std::pair<int, Real>>& terms) const;
 
+    /// The same with face points as they are: a term < 0 is the complement of a child value.
+    void AppendMaskTerms(int childVertex, int childValue, std::vector<std::pair<int, Real>>& terms) const;
+
     CreaseRegions const& Parent() const { return *_parent; }
     CreaseRegions const& Child() const { return *_child; }
 

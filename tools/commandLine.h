@@ -5,38 +5,20 @@
 #include <optional>
 #include <string>
 
-#include "optionNames.h"
-#include "osd_shading/errors.h"
-#include "osd_shading/io/model.h"
+#include "methodOptions.h"
 #include "osd_shading/shadingOptions.h"
+#include "outputTarget.h"
 
 namespace osd_shading::tool {
 
-/// What was typed can't be done; says which option is at fault.
-class UsageError : public Error {
-public:
-    using Error::Error;
-};
-
-enum class OutputFormat { None, Ply, Obj, Usda };
-
 /// What the user asks for, checked as far as that goes without reading a file.
-struct CommandLine {
+struct CommandLine : MeshOptions {
     std::string modelFile;
 
     std::string outputFile;  ///< empty: the table and the report are all
     OutputFormat format = OutputFormat::None;
     bool ascii = false;  ///< PLY as text
     bool cage = false;   ///< USD: the control cage too
-
-    std::string sharpnessFile;  ///< empty: as the model has it
-    std::optional<double> creaseAngle;
-    std::optional<double> creaseScale;
-
-    Sdc::SchemeType scheme = Sdc::SCHEME_CATMARK;
-    std::optional<Sdc::Options::VtxBoundaryInterpolation> boundary;
-    std::optional<Sdc::Options::CreasingMethod> creasing;
-    std::optional<Sdc::Options::TriangleSubdivision> triangles;
 
     Precision precision = Precision::Double;
     ShadingOptions shading;
@@ -51,9 +33,6 @@ struct CommandLine {
 
     std::string reportFile;  ///< empty: none
     bool quiet = false;
-
-    /// How OpenSubdiv is to refine `model`: what is given here, else its tags, else the library's defaults.
-    SubdivisionRules Rules(io::Model const& model) const;
 };
 
 /// Reads the command line; nothing when that asked for help or the version, which is then printed.

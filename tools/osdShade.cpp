@@ -5,10 +5,8 @@
 #include <opensubdiv/far/error.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -21,14 +19,12 @@
 #include "commandLine.h"
 #include "frameTimes.h"
 #include "memory.h"
+#include "modelInput.h"
 #include "osd_shading/geometryCheck.h"
-#include "osd_shading/io/creaseEdits.h"
 #include "osd_shading/io/errors.h"
 #include "osd_shading/io/fileReplacement.h"
-#include "osd_shading/io/objReader.h"
 #include "osd_shading/io/objWriter.h"
 #include "osd_shading/io/plyWriter.h"
-#include "osd_shading/io/sharpReader.h"
 #include "osd_shading/io/usdWriter.h"
 #include "osd_shading/shadingTable.h"
 #include "osd_shading/subdivisionShading.h"
@@ -77,102 +73,6 @@ auto Timed(StageSeconds& seconds, char const* name, Work const& work) {
     return work();
 }
 
-io::Model ReadModel(CommandLine const& line) {
-    io::Model model = io::ReadObj(line.modelFile);
-    if (!line.sharpnessFile.empty()) io::ApplySharpFile(line.sharpnessFile, model);
-    if (line.creaseAngle) io::AddCreasesByAngle(model, *line.creaseAngle);
-    if (line.creaseScale) io::ScaleCreases(model, *line.creaseScale);
-
-    bool const lacksUvs = std::find(model.uvIndices.begin(), model.uvIndices.end(), -1) != model.uvIndices.end();
-    if (lacksUvs) {
-        model.warnings.push_back(line.modelFile +
-                                 ": not every face corner has a vt; texture coordinates are left out");
-        model.uvIndices.clear();
-    }
-    return model;
-}
-
-/// A model's numbers in the precision of the run; `input` views them.
-template <typename Real>
-struct RunInput {
-    std::vector<Real> positions, uvs, cornerNormals;
-    ShadingInput<Real> input;
-};
-
-// `what` and `width`: what every `width` numbers are, for the message.
-template <typename Real>
-std::vector<Real> Converted(CommandLine const& line, std::vector<double> const& values, std::string const& what,
-                            std::size_t width) {
-    std::vector<Real> converted;
-    converted.reserve(values.size());
-    for (double value : values) {
-        converted.push_back(static_cast<Real>(value));
-        if (std::isfinite(converted.back())) continue;
-        throw io::ParseError(line.modelFile, 0,
-                             what + " " + std::to_string((converted.size() - 1) / width) +
-                                 " (from 0) is too large for --precision float: scale the model, or use double");
-    }
-    return converted;
-}
-
-// The face that holds a corner.
-std::size_t FaceOfCorner(io::Model const& model, std::size_t corner) {
-    std::size_t face = 0;
-    for (std::size_t end = 0; face < model.faceSizes.size(); ++face) {
-        end += static_cast<std::size_t>(model.faceSizes[face]);
-        if (corner < end) break;
-    }
-    return face;
-}
-
-template <typename Real>
-std::vector<Real> CornerNormals(CommandLine const& line, io::Model const& model) {
-    std::vector<Real> normals;
-    std::vector<Real> const ofFile = Converted<Real>(line, model.normals, "vn", 3);
-    normals.reserve(3 * model.faceVertices.size());
-    for (std::size_t corner = 0; corner < model.faceVertices.size(); ++corner) {
-        int const normal = model.normalIndices.empty() ? -1 : model.normalIndices[corner];
-        if (normal < 0) {
-            throw io::ParseError(line.modelFile, model.faceLines[FaceOfCorner(model, corner)],
-                                 "the face has a corner without a normal; give every face corner one (f v//vn), or "
-                                 "choose another --start-normals than file");
-        }
-        for (std::size_t i = 0; i < 3; ++i) {
-            normals.push_back(ofFile[3 * static_cast<std::size_t>(normal) + i]);
-        }
-    }
-    return normals;
-}
-
-// The library would refuse it too, but knows no lines.
-void RequireTriangles(CommandLine const& line, io::Model const& model) {
-    if (line.scheme != Sdc::SCHEME_LOOP) return;
-    for (std::size_t face = 0; face < model.faceSizes.size(); ++face) {
-        if (model.faceSizes[face] == 3) continue;
-        throw io::ParseError(
-            line.modelFile, model.faceLines[face],
-            "the face has " + std::to_string(model.faceSizes[face]) +
-                " vertices; Loop subdivision takes triangles only: triangulate it, or use --scheme "
-                "catmark");
-    }
-}
-
-template <typename Real>
-RunInput<Real> MakeInput(CommandLine const& line, io::Model const& model) {
-    RunInput<Real> run;
-    run.positions = Converted<Real>(line, model.positions, "the position of vertex", 3);
-    run.input.positions = {run.positions.data(), run.positions.size() / 3};
-    if (line.shading.startNormals.kind == StartNormalKind::User) {
-        run.cornerNormals = CornerNormals<Real>(line, model);
-        run.input.faceVaryingNormals = {run.cornerNormals.data(), run.cornerNormals.size() / 3};
-    }
-    if (!model.uvIndices.empty()) {
-        run.uvs = Converted<Real>(line, model.uvs, "vt", 2);
-        run.input.faceVaryingData.push_back({model.uvIndices, {run.uvs.data(), run.uvs.size() / 2, 2}});
-    }
-    return run;
-}
-
 // Three quarters: estimates count what is allocated, not what the allocator and the system add.
 std::uint64_t MemoryLimit(CommandLine const& line) {
     std::uint64_t const free = FreeMemory();
@@ -200,7 +100,7 @@ ShadingResult<Real> Shade(CommandLine const& line, ControlMesh const& mesh, Shad
 
 // Builds a table of the same mesh, and times frames where they are wanted.
 void RunFrames(CommandLine const& line, io::Model const& model, ControlMesh const& mesh, RunSummary& run) {
-    RunInput<float> const input = MakeInput<float>(line, model);
+    RunInput<float> const input = MakeInput<float>(line.modelFile, model, line.shading.startNormals.kind);
     ShadingOptions options = line.shading;
     options.execution.memoryLimit = MemoryLimit(line);
     ShadingTable const table = Timed(run.seconds, "table", [&] { return ShadingTable(mesh, options); });
@@ -268,12 +168,12 @@ int Run(CommandLine const& line) {
     RunSummary run;
 
     // Read the control mesh and its sharpness.
-    io::Model const model = Timed(run.seconds, "reading", [&] { return ReadModel(line); });
+    io::Model const model = Timed(run.seconds, "reading", [&] { return ReadModel(line.modelFile, line); });
     for (std::string const& warning : model.warnings) PrintLine("warning", warning);
     run.rules = line.Rules(model);
-    RequireTriangles(line, model);
+    RequireTriangles(line.modelFile, line.Scheme(), model);
     ControlMesh const mesh = model.Mesh(run.rules);
-    RunInput<Real> const input = MakeInput<Real>(line, model);
+    RunInput<Real> const input = MakeInput<Real>(line.modelFile, model, line.shading.startNormals.kind);
 
     // Shade it.
     ShadingResult<Real> const result = Shade(line, mesh, input.input);

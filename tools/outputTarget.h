@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "commandLine.h"
-
 namespace osd_shading::tool {
+
+enum class OutputFormat { None, Ply, Obj, Usda };
 
 /// The format that the ending of `path` names, in either case; PLY for a name without an ending that
 /// is a pipe, a device or standard output. `None` where neither holds.

@@ -10,6 +10,7 @@
 
 #include "osd_shading/limitMasks.h"
 #include "osd_shading/tables/tableData.h"
+#include "osd_shading/tables/tileRing.h"
 
 namespace osd_shading {
 inline namespace v1 {

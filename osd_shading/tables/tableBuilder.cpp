@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "osd_shading/startNormals.h"
 #include "osd_shading/tables/tableData.h"
 #include "osd_shading/tables/tileCompiler.h"
+#include "osd_shading/tables/tileWeights.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -278,6 +280,67 @@ std::vector<double> weightsOfLastLevel(RefinedTopology const& topology, ShadingO
     return ComputeBlendWeights(options.weights, topology, levels, limit, numThreads);
 }
 
+/// The patterns of tiles whose b is found from that of the start level round them.
+class LocalPatterns {
+public:
+    LocalPatterns(RegionLevels& levels, TableData const& data, std::vector<TileField> const& fields,
+                  PatternBuilder& patterns)
+        : _levels(levels),
+          _data(data),
+          _patterns(patterns),
+          _level(data.options.startNormals.level),
+          _start(FindStartWeights(data.options.weights, levels, _level, data.options.level)),
+          _tileWeights(data.options.weights, data.dictionary, fields, levels.Topology().IsCatmark(),
+                       data.options.level) {}
+
+    /// Adds to `numBlended` the points with b > 0.
+    int Find(CompiledTile const& tile, std::int64_t& numBlended) {
+        WeightSources sources;
+        for (FaceCorner const& at : tile.normals) {
+            std::size_t const value = index(_levels.ValueAt(_level, at));
+            sources.weights.push_back(_start.weights[value]);
+            sources.seeds.push_back(_start.seeds[value]);
+        }
+        int const numPoints = _data.dictionary.classes[index(tile.tileClass)].numPoints;
+        if (numPoints == 0) return kZeroEverywhere;
+        if (_tileWeights.IsConstant(tile.tileClass, _level, sources)) {
+            bool const isOne = sources.weights[0] == 1;
+            numBlended += isOne ? numPoints : 0;
+            return isOne ? kOneEverywhere : kZeroEverywhere;
+        }
+        std::string key(reinterpret_cast<char const*>(&tile.tileClass), sizeof tile.tileClass);
+        key.append(reinterpret_cast<char const*>(sources.weights.data()), sources.weights.size() * sizeof(double));
+        key.append(reinterpret_cast<char const*>(sources.seeds.data()),
+                   sources.seeds.size() * sizeof(std::uint32_t));
+        auto const [known, isNew] = _known.emplace(std::move(key), Found{});
+        if (isNew) {
+            std::vector<double> weights;
+            std::vector<int> leafSizes;
+            _tileWeights.Append(tile.tileClass, _level, sources, weights);
+            AppendLeafSizes(_data.dictionary, tile.tileClass, leafSizes);
+            known->second.pattern = _patterns.Add(leafSizes, weights);
+            known->second.numBlended =
+                std::count_if(weights.begin(), weights.end(), [](double b) { return b > 0; });
+        }
+        numBlended += known->second.numBlended;
+        return known->second.pattern;
+    }
+
+private:
+    struct Found {
+        int pattern = kZeroEverywhere;
+        std::int64_t numBlended = 0;
+    };
+
+    RegionLevels& _levels;
+    TableData const& _data;
+    PatternBuilder& _patterns;
+    int _level;
+    WeightSources _start;
+    TileWeights _tileWeights;
+    std::unordered_map<std::string, Found> _known;
+};
+
 /// Start normals that are averages of faces, or the caller's.
 class StartBuilder {
 public:
@@ -481,7 +544,9 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
 
     // Levels beyond those that start normals need, where something can't be told without them.
     bool const usesOne = options.weights.scheme == WeightScheme::One;
-    bool const needsAllLevels = order == ValueOrder::OpenSubdiv || (hasSubdividedNormals && !usesOne) ||
+    bool const hasWeights = hasSubdividedNormals && !usesOne;
+    bool const hasLocalWeights = hasWeights && HasLocalWeights(options.weights, topology.Refiner());
+    bool const needsAllLevels = order == ValueOrder::OpenSubdiv || (hasWeights && !hasLocalWeights) ||
                                 LastSharpness::NeedsAllLevels(topology.Refiner());
     std::unique_ptr<RefinedTopology> own;
     if (needsAllLevels && topology.LastLevel() < lastLevel) {
@@ -496,18 +561,19 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
 
     // Tiles and their classes.
     TileCompiler compiler({data.mesh.rules, options.limits.positions, options.limits.normals,
-                           FaceWeightOf(options.startNormals.kind), hasSubdividedNormals});
+                           FaceWeightOf(options.startNormals.kind), hasSubdividedNormals, hasLocalWeights});
     std::vector<CompiledTile> tiles;
     tiles.reserve(index(base.GetNumFaces()));
     for (int f = 0; f < base.GetNumFaces(); ++f) {
         tiles.push_back(compiler.Compile(levels, 0, f, lastLevel, hasSubdividedNormals ? normalLevel : 0,
                                          ownershipOf(topology, last, data, ownsMiddle, f)));
     }
+    std::vector<TileField> const fields = compiler.TakeFields();
     data.dictionary = compiler.Take();
 
     // Weights, start normals, sources.
     std::vector<double> weights;
-    if (hasSubdividedNormals && !usesOne) weights = weightsOfLastLevel(all, options);
+    if (hasWeights && !hasLocalWeights) weights = weightsOfLastLevel(all, options);
     StartNormalKind const kind = options.startNormals.kind;
     bool const isLimit = kind == StartNormalKind::Limit || kind == StartNormalKind::LimitSmoothed;
     std::vector<int> limitNormals;
@@ -518,6 +584,8 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
         startBuilder = std::make_unique<StartBuilder>(levels, normalLevel, kind, data.start);
     }
     PatternBuilder patterns(data, options.weights.exponent);
+    std::optional<LocalPatterns> localPatterns;
+    if (hasLocalWeights) localPatterns.emplace(levels, data, fields, patterns);
     std::int64_t numValues = 0;
     std::vector<int> leafSizes;
     std::vector<double> tileWeights;
@@ -539,6 +607,8 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
         data.vertices.insert(data.vertices.end(), compiled.vertices.begin(), compiled.vertices.end());
         if (hasSubdividedNormals && usesOne) {
             tile.pattern = kOneEverywhere;
+        } else if (hasLocalWeights) {
+            tile.pattern = localPatterns->Find(compiled, data.stats.blendedValues);
         } else if (hasSubdividedNormals) {
             leafSizes.clear();
             AppendLeafSizes(data.dictionary, compiled.tileClass, leafSizes);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "osd_shading/shadingTable.h"
+#include "osd_shading/tables/faceGrid.h"
 #include "osd_shading/tables/tileDictionary.h"
 
 namespace osd_shading {

@@ -5,10 +5,13 @@
 
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "osd_shading/shadingOptions.h"
+#include "osd_shading/tables/normalLocator.h"
 #include "osd_shading/tables/tileDictionary.h"
+#include "osd_shading/tables/tileField.h"
 #include "osd_shading/tables/tileOwnership.h"
 
 namespace osd_shading {
@@ -22,6 +25,7 @@ struct TileContents {
     LimitNormalKind normals = LimitNormalKind::Limit;
     FaceWeight faceWeight = FaceWeight::Uniform;  ///< of LimitNormalKind::FaceAverage
     bool hasSubdividedNormals = true;
+    bool needsFields = false;  ///< how b is refined, for those who want to know (not round non-manifold creases)
 };
 
 /// A face and what it is evaluated by and from.
@@ -32,6 +36,21 @@ struct CompiledTile {
     std::vector<FaceCorner> normals;  ///< of the level q further down
 };
 
+/// Where the sources of a class are found round a tile.
+struct ClassSources {
+    std::vector<std::uint16_t> ringVertices;    ///< Dense and Split: among the ring's vertices
+    std::vector<NormalLocator> normalLocators;  ///< the same for normals
+};
+
+struct MadeClass {
+    TileClass tileClass;
+    ClassSources sources;
+    TileField field;
+};
+
+/// FNV-1a.
+std::uint64_t HashOf(void const* data, std::size_t size);
+
 /// Finds the class of a face's neighbourhood, or makes it: with OpenSubdiv's own masks, in double precision.
 class TileCompiler {
 public:
@@ -40,6 +59,9 @@ public:
     /// The tile of face `face` of `level`: it has 2^k faces along a side in the end (a face that is no quad: its
     /// children 2^(k-1)), and normals that start q levels further down.
     CompiledTile Compile(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own);
+
+    /// How b is refined, by class; asked for before `Take`.
+    std::vector<TileField> TakeFields() { return std::move(_fields); }
 
     /// Ends the compiler.
     TileDictionary Take();
@@ -51,23 +73,34 @@ private:
     using ClassMap = std::unordered_map<std::vector<std::int32_t>, int, KeyHash>;
 
     bool isCatmark() const { return _contents.rules.scheme == Sdc::SCHEME_CATMARK; }
+    int addClass(MadeClass&& made);
+
+    // Splines.
     std::optional<unsigned> findSharpSides(RegionLevels& levels, int level, int face, int k) const;
-    bool isRegularTriangle(RegionLevels& levels, int level, int face) const;
     CompiledTile compileSpline(RegionLevels& levels, int level, int face, int k, int q, unsigned sharpSides,
                                TileOwnership const& own);
-    TileClass makeSpline(std::vector<FaceCorner> const& points, std::vector<FaceCorner> const& normals, int k,
+    MadeClass makeSpline(std::vector<FaceCorner> const& points, std::vector<FaceCorner> const& normals, int k,
                          int q, unsigned sharpSides, TileOwnership const& own);
-    TileClass makeSplit(TileRing const& ring, int k, int q, TileOwnership const& own);
-    TileClass makeWhole(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own);
-    TileClass makeDense(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own,
-                        bool takesAll);
     int addPlan(std::vector<RowSegment> const& segments);
-    int addMatrix(int numPoints, int numFields, std::vector<std::vector<std::pair<int, double>>> const& rows,
-                  std::vector<std::uint16_t>& columns);
     void useBases(int k, int q);
+
+    // Tiles that split.
+    MadeClass makeSplit(RegionLevels& levels, int level, int face, TileRing const& ring, int rotation, int k, int q,
+                        TileOwnership const& own);
+
+    // Matrices.
+    bool isRegularTriangle(RegionLevels& levels, int level, int face) const;
+    MadeClass makeDense(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own,
+                        bool takesAll);
+    MadeClass makeWhole(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own);
+    MadeClass makeWholeOfRing(TileRing const& ring, int k, int q, TileOwnership const& own);
+    int addMatrix(int numPoints, int numFields, int numSources, FlatRows const& rows,
+                  std::vector<std::uint16_t>& columns);
 
     TileContents _contents;
     TileDictionary _dictionary;
+    std::vector<ClassSources> _sources;  // by class
+    std::vector<TileField> _fields;      // by class
     ClassMap _classOfKey;
     std::vector<std::size_t> _planOffsets, _weightOffsets;
     std::unordered_multimap<std::uint64_t, int> _planOfHash, _matrixOfHash;

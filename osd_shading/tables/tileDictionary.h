@@ -5,12 +5,10 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "osd_shading/faceNormals.h"
 #include "osd_shading/tables/patchKernels.h"
-#include "osd_shading/tables/tileRing.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -23,13 +21,6 @@ struct LocalRows {
     std::vector<float> weights;
 
     int NumRows() const { return static_cast<int>(offsets.size()) - 1; }
-};
-
-/// Where a source of a tile's normals is found: a corner of a face of the start level (or of the tile's own, where
-/// that is later), by the face of the tile's ring that it came from.
-struct NormalLocator {
-    FacePath path;  ///< `face` counts the ring's faces; corners and children count from the ring's first corners
-    int corner = 0;
 };
 
 /// A value whose N_L is an average of face normals of the last level.
@@ -80,18 +71,18 @@ struct TileClass {
     int numLeaves = 0;                 ///< in the order in which they are evaluated
     int numSources = 0, numNormalSources = 0;
     LocalRows pointRows, normalRows;
-    std::vector<std::uint16_t> ringVertices;    ///< Dense and Split: the sources, among the ring's vertices
-    std::vector<NormalLocator> normalLocators;  ///< the same for normals
 
     /// Spline: control points (4 x 4) and normals ((2^q + 3)^2) among the local ones. Dense: the matrix's columns.
     std::vector<std::uint16_t> pointIndices, normalIndices;
     std::vector<int> plans;  ///< Spline: by window, row by row
 
-    int frameMatrix = -1, normalMatrix = -1;  ///< Dense
-    float tangentSums[2] = {0, 0};            ///< Dense: largest sum of a row's weights, without signs
-    AverageNormals averages;                  ///< Dense
-    std::vector<std::uint16_t> gridPoints;    ///< Dense: row * 32 + column, by point
-    std::vector<ChildTile> children;          ///< Split
+    /// Dense. Where both are one, normals are summed with the weights of its field 0, and `normalIndices` are in
+    /// the order of its columns.
+    int frameMatrix = -1, normalMatrix = -1;
+    float tangentSums[2] = {0, 0};          ///< Dense: largest sum of a row's weights, without signs
+    AverageNormals averages;                ///< Dense
+    std::vector<std::uint16_t> gridPoints;  ///< Dense: row * 32 + column, by point
+    std::vector<ChildTile> children;        ///< Split
 };
 
 /// A window of a patch with 2^k faces along a side: at most kLeafSide of them.

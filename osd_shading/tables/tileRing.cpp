@@ -20,7 +20,12 @@ std::int32_t bitsOf(float number) {
 }  // namespace
 
 RegionLevels::RegionLevels(RefinedTopology const& topology)
-    : _topology(&topology), _regions(static_cast<std::size_t>(topology.LastLevel()) + 1), _rings(_regions.size()) {}
+    : _topology(&topology),
+      _regions(static_cast<std::size_t>(topology.LastLevel()) + 1),
+      _rings(_regions.size()),
+      _masks(_regions.size()),
+      _steps(_regions.size()),
+      _slots(_regions.size()) {}
 
 CreaseRegions const& RegionLevels::Regions(int level) {
     auto& regions = _regions[static_cast<std::size_t>(level)];
@@ -32,6 +37,35 @@ TileRings& RegionLevels::Rings(int level) {
     auto& rings = _rings[static_cast<std::size_t>(level)];
     if (!rings) rings = std::make_unique<TileRings>(*_topology, level);
     return *rings;
+}
+
+LevelMasks<double> const& RegionLevels::Masks(int level) {
+    auto& masks = _masks[static_cast<std::size_t>(level)];
+    if (!masks) masks = std::make_unique<LevelMasks<double>>(_topology->RecordMasks<double>(level));
+    return *masks;
+}
+
+FieldStep<double> const& RegionLevels::Step(int level) {
+    auto& step = _steps[static_cast<std::size_t>(level)];
+    if (!step) {
+        step = std::make_unique<FieldStep<double>>(*_topology, level, Masks(level), Regions(level - 1),
+                                                   Regions(level), 1);
+    }
+    return *step;
+}
+
+bool RegionLevels::HasOneValuePerVertex(int lastLevel) {
+    for (int level = 0; level <= lastLevel; ++level) {
+        if (!Regions(level).HasOneValuePerVertex()) return false;
+    }
+    return true;
+}
+
+std::vector<int>& RegionLevels::Slots(int level) {
+    auto& slots = _slots[static_cast<std::size_t>(level)];
+    auto const size = static_cast<std::size_t>(std::max(Level(level).GetNumVertices(), Regions(level).NumValues()));
+    if (slots.size() < size) slots.assign(size, -1);
+    return slots;
 }
 
 SubdivisionRules RulesOf(Far::TopologyRefiner const& refiner) {

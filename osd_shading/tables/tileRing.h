@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "osd_shading/fieldRefiner.h"
 #include "osd_shading/tables/faceGrid.h"
 
 namespace osd_shading {
@@ -64,7 +65,8 @@ private:
     std::vector<unsigned char> _isFaceInRing;
 };
 
-/// A refined mesh with the regions of each level and the rings of its faces, found when they are asked for.
+/// A refined mesh with the regions and masks of each level and the rings of its faces, found when they are asked
+/// for.
 class RegionLevels {
 public:
     /// `topology` must outlive this object.
@@ -74,12 +76,22 @@ public:
     Far::TopologyLevel const& Level(int level) const { return _topology->Level(level); }
     CreaseRegions const& Regions(int level);
     TileRings& Rings(int level);
+    /// From `level - 1` to `level`.
+    LevelMasks<double> const& Masks(int level);
+    FieldStep<double> const& Step(int level);
+    /// Whether values are vertices on all levels from 0 to `lastLevel`.
+    bool HasOneValuePerVertex(int lastLevel);
+    /// Memory of those who number some elements (values or vertices) of a level: -1 for each. To be left so.
+    std::vector<int>& Slots(int level);
     int ValueAt(int level, FaceCorner const& at) { return Regions(level).CornerValue(at.face, at.corner); }
 
 private:
     RefinedTopology const* _topology;
     std::vector<std::unique_ptr<CreaseRegions>> _regions;
     std::vector<std::unique_ptr<TileRings>> _rings;
+    std::vector<std::unique_ptr<LevelMasks<double>>> _masks;
+    std::vector<std::unique_ptr<FieldStep<double>>> _steps;
+    std::vector<std::vector<int>> _slots;
 };
 
 /// Whether the ring of a face of a refined level, as a mesh of its own, is refined as it is there. It is not at

@@ -30,18 +30,8 @@ struct OpenSubdivPoint {
     Real x, y, z;
 };
 
-/// What OpenSubdiv gives without shading: limit points and two tangents at each vertex of the last level.
-template <typename Real>
-struct OpenSubdivLimits {
-    std::vector<OpenSubdivPoint<Real>> points, tangents1, tangents2;
-};
-
-/// The yardstick: OpenSubdiv's create, RefineUniform, Interpolate through all levels, and Limit.
-///
-/// As lean as a user would write it: only two levels of points are held at a time.
-template <typename Real>
-OpenSubdivLimits<Real> RunOpenSubdiv(osd_shading::ControlMesh const& mesh, std::vector<Real> const& positions,
-                                     int level) {
+/// OpenSubdiv's refiner of `mesh`, not refined.
+inline std::unique_ptr<Far::TopologyRefiner> MakeRefiner(osd_shading::ControlMesh const& mesh) {
     Far::TopologyDescriptor descriptor;
     descriptor.numVertices = mesh.numVertices;
     descriptor.numFaces = static_cast<int>(mesh.faceSizes.size());
@@ -58,8 +48,23 @@ OpenSubdivLimits<Real> RunOpenSubdiv(osd_shading::ControlMesh const& mesh, std::
     options.SetCreasingMethod(mesh.rules.creasing);
     options.SetTriangleSubdivision(mesh.rules.triangles);
     using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-    std::unique_ptr<Far::TopologyRefiner> const refiner(
+    return std::unique_ptr<Far::TopologyRefiner>(
         Factory::Create(descriptor, Factory::Options(mesh.rules.scheme, options)));
+}
+
+/// What OpenSubdiv gives without shading: limit points and two tangents at each vertex of the last level.
+template <typename Real>
+struct OpenSubdivLimits {
+    std::vector<OpenSubdivPoint<Real>> points, tangents1, tangents2;
+};
+
+/// The yardstick: OpenSubdiv's create, RefineUniform, Interpolate through all levels, and Limit.
+///
+/// As lean as a user would write it: only two levels of points are held at a time.
+template <typename Real>
+OpenSubdivLimits<Real> RunOpenSubdiv(osd_shading::ControlMesh const& mesh, std::vector<Real> const& positions,
+                                     int level) {
+    std::unique_ptr<Far::TopologyRefiner> const refiner = MakeRefiner(mesh);
     Far::TopologyRefiner::UniformOptions uniform(level);
     uniform.fullTopologyInLastLevel = true;
     refiner->RefineUniform(uniform);

@@ -42,7 +42,7 @@ void addInset(Model& model, int const (&outer)[4]) {
 
 }  // namespace
 
-Model CreasedTorus(int around, int up) {
+Model CreasedTorus(int around, int up, int spacing) {
     Model model;
     model.name = "torus";
     double const turn = 2 * std::acos(-1.0);
@@ -57,7 +57,7 @@ Model CreasedTorus(int around, int up) {
     for (int i = 0; i < around; ++i) {
         for (int j = 0; j < up; ++j) {
             int const quad[4] = {vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)};
-            if (i % 4 == 2 && j % 4 == 2) {
+            if (i % spacing == spacing / 2 && j % spacing == spacing / 2) {
                 addInset(model, quad);
             } else {
                 addFace(model, {quad[0], quad[1], quad[2], quad[3]});

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What the viewer's tests share: the program run as people run it, and its pictures as numbers.
+
+#include <gtest/gtest.h>
+#include <stb_image.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/ioFiles.h"
+
+namespace viewerTest {
+
+using Words = std::vector<std::string>;
+
+inline std::string ModelPath(std::string const& name) {
+    return std::string(OSD_SHADING_MODELS) + "/" + name + ".obj";
+}
+
+inline std::string Quoted(std::string const& word) {
+    std::string quoted = "'";
+    for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+struct Outcome {
+    int status = -1;  ///< exit status; -1: ended by a signal
+    std::string out, error;
+};
+
+inline Outcome RunViewer(Words const& words) {
+    ioFiles::TemporaryFolder const folder;
+    // No display: whatever needs one must not be touched.
+    std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " + Quoted(OSD_SHADING_VIEWER_PROGRAM);
+    for (std::string const& word : words) command += " " + Quoted(word);
+    int const status =
+        std::system((command + " > " + Quoted(folder.File("out")) + " 2> " + Quoted(folder.File("error"))).c_str());
+    Outcome outcome;
+    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    outcome.out = ioFiles::ReadBytes(folder.File("out"));
+    outcome.error = ioFiles::ReadBytes(folder.File("error"));
+    return outcome;
+}
+
+struct Color {
+    int red = 0, green = 0, blue = 0;
+
+    bool operator==(Color const&) const = default;
+    /// The largest difference in a channel.
+    int Distance(Color const& other) const {
+        return std::max({std::abs(red - other.red), std::abs(green - other.green), std::abs(blue - other.blue)});
+    }
+};
+
+inline constexpr Color kWhite{255, 255, 255};
+
+/// A PNG that is read; rows from the top.
+class Picture {
+public:
+    Picture() = default;
+    explicit Picture(std::string const& file) {
+        int channels = 0;
+        std::unique_ptr<stbi_uc, void (*)(void*)> const data(
+            stbi_load(file.c_str(), &_width, &_height, &channels, 3), stbi_image_free);
+        if (!data) {
+            ADD_FAILURE() << file << " is no picture";
+            return;
+        }
+        _pixels.assign(data.get(), data.get() + 3 * _width * _height);
+    }
+
+    int Width() const { return _width; }
+    int Height() const { return _height; }
+    Color At(int x, int y) const {
+        auto const i = 3 * static_cast<std::size_t>(y * _width + x);
+        return {_pixels[i], _pixels[i + 1], _pixels[i + 2]};
+    }
+    template <typename Predicate>
+    int Count(Predicate const& predicate) const {
+        int count = 0;
+        for (int y = 0; y < _height; ++y) {
+            for (int x = 0; x < _width; ++x) count += predicate(At(x, y)) ? 1 : 0;
+        }
+        return count;
+    }
+    int NumCovered() const {
+        return Count([](Color const& c) { return c != kWhite; });
+    }
+    int NumNear(Color const& color, int tolerance) const {
+        return Count([&](Color const& c) { return c.Distance(color) <= tolerance; });
+    }
+
+private:
+    int _width = 0, _height = 0;
+    std::vector<std::uint8_t> _pixels;
+};
+
+/// Number of pixels in which two pictures of one size differ by more than `tolerance`.
+inline int NumDifferent(Picture const& a, Picture const& b, int tolerance) {
+    EXPECT_EQ(a.Width(), b.Width());
+    EXPECT_EQ(a.Height(), b.Height());
+    int count = 0;
+    for (int y = 0; y < a.Height(); ++y) {
+        for (int x = 0; x < a.Width(); ++x) count += a.At(x, y).Distance(b.At(x, y)) > tolerance ? 1 : 0;
+    }
+    return count;
+}
+
+/// Runs the program for a picture; fails the test where it does.
+inline Picture Draw(Words words) {
+    ioFiles::TemporaryFolder const folder;
+    std::string const file = folder.File("picture.png");
+    words.insert(words.end(), {"--image", file});
+    Outcome const outcome = RunViewer(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    EXPECT_EQ(folder.NumFiles(), 1U) << "a temporary file is left";
+    return outcome.status == 0 ? Picture(file) : Picture();
+}
+
+}  // namespace viewerTest

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "camera.h"
+#include "deformation.h"
+#include "methodOptions.h"
+#include "viewOptions.h"
+
+namespace osd_shading::viewer {
+
+/// All that the panel edits, the command line sets and a settings file keeps.
+struct Settings {
+    std::string modelFile;  ///< or the name of a built-in model
+    tool::MeshOptions mesh;
+    tool::ShadingChoice shading;
+    ViewOptions view;
+    CameraChoice camera;
+    Deformation deformation;
+    int numThreads = 0;  ///< 0: as many as the machine has
+};
+
+/// `settings` as text, a line for each option that is not at its default: the names of the command line without
+/// dashes, a space, the value.
+std::string SettingsText(Settings const& settings);
+
+/// The words of a command line that stand for the settings file `file`.     ERRORS: io::ReadError, UsageError
+std::vector<std::string> ReadSettingsFile(std::string const& file);
+
+}  // namespace osd_shading::viewer
