@@ -23,6 +23,11 @@ foreach(target IN LISTS installed)
 endforeach()
 
 install(EXPORT osd_shadingTargets NAMESPACE osd_shading:: DESTINATION "${packageFolder}")
+# A static library leaves it to its users to link what it needs.
+set(configDependencies "")
+if(OSD_SHADING_WITH_TBB AND NOT BUILD_SHARED_LIBS)
+    set(configDependencies "find_dependency(TBB 2021 CONFIG)\n")
+endif()
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/osd_shadingConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/osd_shadingConfig.cmake"
                               INSTALL_DESTINATION "${packageFolder}")
@@ -75,5 +80,8 @@ foreach(target osd_shading::OpenSubdiv ${linked})
         endif()
     endforeach()
 endforeach()
+if(OSD_SHADING_WITH_TBB AND NOT BUILD_SHARED_LIBS)
+    string(APPEND pcLibraries " -ltbb")
+endif()
 configure_file("${PROJECT_SOURCE_DIR}/cmake/osd_shading.pc.in" "${PROJECT_BINARY_DIR}/osd_shading.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/osd_shading.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
