@@ -646,7 +646,10 @@ void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass,
             if (blend == 0) subdivided = {};
         }
         write(leaf.limitNormals, point, limit);
-        write(leaf.blendedNormals, point, BlendNormals(limit, subdivided, blend, 1));
+        // Where b is 1 it is N_S alone, the same bits as without N_L.
+        if (blend < 1 || IsZero(subdivided)) {
+            write(leaf.blendedNormals, point, BlendNormals(limit, subdivided, blend, 1));
+        }
     }
 }
 
