@@ -629,7 +629,8 @@ void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass,
     for (int i = 0; i < leaf.numDoubtful; ++i) {
         std::size_t const point = leaf.doubtful[i];
         Vec3<double> exact;
-        bool const isAverage = findAverage(tileClass.averages, static_cast<int>(point), place.points, exact);
+        bool const isAverage =
+            tileClass.averages && findAverage(*tileClass.averages, static_cast<int>(point), place.points, exact);
         if (!isAverage) {
             exact = exactNormals->Find(visit.tile, firstValue + static_cast<int>(point), visit.controlPoints);
             ++visit.worker->numFallbacks;
