@@ -524,7 +524,17 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
     }
     leaf.doubtful = worker.doubtful.data();
     LeafFrame::Output const du = std::exchange(leaf.tangents1, {}), dv = std::exchange(leaf.tangents2, {});
+    if (blend == LeafBlend::One && hasTangents && leaf.subdivided.x != nullptr) {
+        // N_B is N_S alone: the same bits as where no N_L is asked for.
+        LeafFrame alone = leaf;
+        alone.positions = alone.limitNormals = {};
+        alone.tangent1 = alone.tangent2 = {};
+        kernels->finish(alone);
+        leaf.blendedNormals = leaf.subdividedNormals = {};
+        leaf.subdivided = {};
+    }
     kernels->finish(leaf);
+    if (blend == LeafBlend::One && visit.hasNormals) leaf.subdivided = worker.subdivided;  // may stand in for N_L
     if (needsTangents) {
         // As the tile sees them. N_L is made of those of the class, the same bits whether they are wanted or not.
         Frame2 const& f = place.frame;
@@ -647,10 +657,7 @@ void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass,
             if (blend == 0) subdivided = {};
         }
         write(leaf.limitNormals, point, limit);
-        // Where b is 1 it is N_S alone, the same bits as without N_L.
-        if (blend < 1 || IsZero(subdivided)) {
-            write(leaf.blendedNormals, point, BlendNormals(limit, subdivided, blend, 1));
-        }
+        write(leaf.blendedNormals, point, BlendNormals(limit, subdivided, blend, 1));
     }
 }
 
