@@ -629,7 +629,8 @@ void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass,
     for (int i = 0; i < leaf.numDoubtful; ++i) {
         std::size_t const point = leaf.doubtful[i];
         Vec3<double> exact;
-        bool const isAverage = findAverage(tileClass.averages, static_cast<int>(point), place.points, exact);
+        bool const isAverage =
+            tileClass.averages && findAverage(*tileClass.averages, static_cast<int>(point), place.points, exact);
         if (!isAverage) {
             exact = exactNormals->Find(visit.tile, firstValue + static_cast<int>(point), visit.controlPoints);
             ++visit.worker->numFallbacks;
@@ -646,7 +647,10 @@ void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass,
             if (blend == 0) subdivided = {};
         }
         write(leaf.limitNormals, point, limit);
-        write(leaf.blendedNormals, point, BlendNormals(limit, subdivided, blend, 1));
+        // Where b is 1 it is N_S alone, the same bits as without N_L.
+        if (blend < 1 || IsZero(subdivided)) {
+            write(leaf.blendedNormals, point, BlendNormals(limit, subdivided, blend, 1));
+        }
     }
 }
 

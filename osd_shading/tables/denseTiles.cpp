@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 #include "osd_shading/tables/localRows.h"
@@ -166,9 +167,11 @@ MadeClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
     FlatRows frameRows, normalRows;
     ElementList neededVertices(last.GetNumVertices()), neededValues(regions.NumValues());
     bool const isAverageOnly = _contents.normals == LimitNormalKind::FaceAverage;
-    if (isAverageOnly) made.averages.weight = _contents.faceWeight;
+    AverageNormals averages;
+    if (isAverageOnly) averages.weight = _contents.faceWeight;
     TangentRows tangents(levels, limit, lastLevel, grid);
     std::vector<std::pair<int, double>> terms;
+    made.gridPoints.reserve(index((side + 1) * (side + 1)));
     auto const addFrameRow = [&] {
         for (auto const& [vertex, weight] : terms) neededVertices.Add(vertex, vertex);
         appendTerms(frameRows, terms);
@@ -187,7 +190,7 @@ MadeClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
             addFrameRow();
             LimitFrame<double> const& frame = tangents.Find(row, column);
             if (frame.isAverage || isAverageOnly) {
-                made.averages.normals.push_back({made.numPoints, static_cast<int>(made.averages.faces.size())});
+                averages.normals.push_back({made.numPoints, static_cast<int>(averages.faces.size())});
                 for (std::size_t i = 0; i < frame.fan.faces.size(); ++i) {
                     Far::ConstIndexArray const vertices = last.GetFaceVertices(frame.fan.faces[i]);
                     AverageFace averaged;
@@ -199,7 +202,7 @@ MadeClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
                     }
                     // A face of other size is met at level 0 only, where limits need quads.
                     assert(averaged.size <= 4);
-                    made.averages.faces.push_back(averaged);
+                    averages.faces.push_back(averaged);
                 }
                 addFrameRow();
                 addFrameRow();
@@ -221,6 +224,8 @@ MadeClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
             made.gridPoints.push_back(static_cast<std::uint16_t>(row * 32 + column));
         }
     }
+
+    made.gridPoints.shrink_to_fit();
 
     // Down from the vertices of the tile's own mesh.
     {
@@ -267,11 +272,11 @@ MadeClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
         }
 
         // Points of the faces whose normals are averaged.
-        if (!made.averages.normals.empty()) {
+        if (!averages.normals.empty()) {
             RowAdder sum(index(made.numSources));
             std::vector<int> rowOfVertex(needed.Level(lastLevel).Size(), -1);
             FlatRows averageRows;
-            for (AverageFace& averaged : made.averages.faces) {
+            for (AverageFace& averaged : averages.faces) {
                 for (int j = 0; j < averaged.size; ++j) {
                     int const element = needed.IndexOf(lastLevel, averaged.rows[j]);
                     int& row = rowOfVertex[index(element)];
@@ -285,10 +290,11 @@ MadeClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
             }
             if (takesAll) useElements(averageRows, needed);
             for (std::size_t t = 0; t < averageRows.sources.size(); ++t) {
-                made.averages.sources.push_back(LocalIndex(averageRows.sources[t]));
-                made.averages.weights.push_back(averageRows.weights[t]);
+                averages.sources.push_back(LocalIndex(averageRows.sources[t]));
+                averages.weights.push_back(averageRows.weights[t]);
             }
-            made.averages.offsets.assign(averageRows.offsets.begin(), averageRows.offsets.end());
+            averages.offsets.assign(averageRows.offsets.begin(), averageRows.offsets.end());
+            made.averages = std::make_shared<AverageNormals const>(averages);
         }
     }
     if (!hasNormals || isAlike) return result;

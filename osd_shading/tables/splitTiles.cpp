@@ -50,6 +50,9 @@ private:
 /// The rows of a level's needed elements, after `numSources` sources: those of the level before.
 LocalRows makeRows(NeededLevel const& needed, int numSources) {
     LocalRows rows;
+    rows.offsets.reserve(needed.Size() + 1);
+    rows.sources.reserve(needed.terms.size());
+    rows.weights.reserve(needed.terms.size());
     for (std::size_t i = 0; i < needed.Size(); ++i) {
         for (std::size_t t = needed.offsets[i]; t < needed.offsets[i + 1]; ++t) {
             int const term = needed.terms[t];
@@ -99,6 +102,7 @@ MadeClass TileCompiler::makeSplit(RegionLevels& outer, int outerLevel, int outer
 
     // The children, in the order in which the class sees them.
     std::vector<CompiledTile> children;
+    made.children.reserve(index(childFaces.size()));
     for (ChildFace const& child : findChildren(levels, level, face, turned, k, own)) {
         CompiledTile compiled = compile(levels, level + 1, child.face, k - 1, std::max(0, q - 1), child.own);
         compiled.rotation = (compiled.rotation + child.size - child.turned) % child.size;
@@ -132,6 +136,8 @@ MadeClass TileCompiler::makeSplit(RegionLevels& outer, int outerLevel, int outer
         made.numSources = static_cast<int>(needed.Level(level).Size());
         made.pointRows = makeRows(needed.Level(level + 1), made.numSources);
         for (std::size_t i = 0; i < children.size(); ++i) {
+            made.children[i].pointIndices.reserve(children[i].vertices.size());
+            made.children[i].normalIndices.reserve(children[i].normals.size());
             for (int const v : children[i].vertices) {
                 made.children[i].pointIndices.push_back(LocalIndex(made.numSources + needed.IndexOf(level + 1, v)));
             }

@@ -29,9 +29,11 @@ std::size_t TileDictionary::NumBytes() const {
         bytesOf(classes) + bytesOf(matrices) + bytesOf(weights) + bytesOf(plans) + bytesOf(segments);
     for (TileClass const& c : classes) {
         bytes += bytesOfRows(c.pointRows) + bytesOfRows(c.normalRows) + bytesOf(c.pointIndices) +
-                 bytesOf(c.normalIndices) + bytesOf(c.plans) + bytesOf(c.gridPoints) + bytesOf(c.children) +
-                 bytesOf(c.averages.normals) + bytesOf(c.averages.faces) + bytesOf(c.averages.offsets) +
-                 bytesOf(c.averages.sources) + bytesOf(c.averages.weights);
+                 bytesOf(c.normalIndices) + bytesOf(c.plans) + bytesOf(c.gridPoints) + bytesOf(c.children);
+        if (AverageNormals const* const averages = c.averages.get()) {
+            bytes += sizeof *averages + bytesOf(averages->normals) + bytesOf(averages->faces) +
+                     bytesOf(averages->offsets) + bytesOf(averages->sources) + bytesOf(averages->weights);
+        }
         for (ChildTile const& child : c.children)
             bytes += bytesOf(child.pointIndices) + bytesOf(child.normalIndices);
     }
@@ -238,7 +240,7 @@ void placeLeaf(TileClass const& leaf, ChildTile& child) {
         indices.swap(composed);
     };
     // An average's rows name all sources, not those of the matrix.
-    if (!leaf.averages.normals.empty()) return;
+    if (leaf.averages) return;
     compose(child.pointIndices, leaf.pointIndices);
     if (!child.normalIndices.empty()) compose(child.normalIndices, leaf.normalIndices);
     child.isInPlace = true;

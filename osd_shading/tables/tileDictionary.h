@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "osd_shading/faceNormals.h"
@@ -79,10 +80,10 @@ struct TileClass {
     /// Dense. Where both are one, normals are summed with the weights of its field 0, and `normalIndices` are in
     /// the order of its columns.
     int frameMatrix = -1, normalMatrix = -1;
-    float tangentSums[2] = {0, 0};          ///< Dense: largest sum of a row's weights, without signs
-    AverageNormals averages;                ///< Dense
-    std::vector<std::uint16_t> gridPoints;  ///< Dense: row * 32 + column, by point
-    std::vector<ChildTile> children;        ///< Split
+    float tangentSums[2] = {0, 0};                   ///< Dense: largest sum of a row's weights, without signs
+    std::shared_ptr<AverageNormals const> averages;  ///< Dense; null: none
+    std::vector<std::uint16_t> gridPoints;           ///< Dense: row * 32 + column, by point
+    std::vector<ChildTile> children;                 ///< Split
 };
 
 /// A window of a patch with 2^k faces along a side: at most kLeafSide of them.
