@@ -176,6 +176,11 @@ struct ShadingEvaluator::Impl {
     void settle(LeafFrame& leaf, TileClass const& tileClass, Place const& place, int firstValue, Visit& visit);
     void spoil(int numPoints, std::size_t value, std::size_t weight, bool hasTangents, LeafBlend blend,
                Worker const& worker) const;
+    /// Whether a leaf's tangents are needed; where b varies N_S is finished along with N_L.
+    bool needsTangentsOf(LeafBlend blend) const {
+        if (needsLimits) return true;
+        return blend == LeafBlend::Mixed ? needsSubdivided : blend == LeafBlend::Zero && needsBlended;
+    }
     LeafBlend blendOfLeaf(Visit const& visit) const { return visit.leafBlend ? *visit.leafBlend : visit.blend; }
 
     std::shared_ptr<TableData const> data;
@@ -398,7 +403,7 @@ void ShadingEvaluator::Impl::evaluateDense(TileClass const& c, Place const& plac
     TileDictionary const& dictionary = data->dictionary;
     Worker& worker = *visit.worker;
     LeafBlend const blend = blendOfLeaf(visit);
-    bool const hasTangents = needsLimits || (needsBlended && blend != LeafBlend::One);
+    bool const hasTangents = needsTangentsOf(blend);
     bool const hasNormals = visit.hasNormals && blend != LeafBlend::Zero;
     DenseMatrix const& matrix = dictionary.matrices[index(c.frameMatrix)];
     FieldArrays const fields[3] = {worker.position, worker.tangent1, worker.tangent2};
@@ -450,7 +455,7 @@ void ShadingEvaluator::Impl::evaluateSpline(TileClass const& c, Place const& pla
     for (int window = 0; window < numWindows * numWindows; ++window) {
         RowPlan const& plan = dictionary.plans[index(c.plans[index(window)])];
         LeafBlend const blend = blendOfLeaf(visit);
-        bool const hasTangents = needsLimits || (needsBlended && blend != LeafBlend::One);
+        bool const hasTangents = needsTangentsOf(blend);
         bool const hasNormals = visit.hasNormals && blend != LeafBlend::Zero;
         auto const row = index(window / numWindows), column = index(window % numWindows);
         if (plan.numPoints > 0) {
