@@ -11,6 +11,7 @@
 #include "osd_shading/oneShotShading.h"
 #include "osd_shading/subdivisionShading.h"
 #include "osd_shading/tables/tableData.h"
+#include "osd_shading/tables/tableEstimate.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -33,15 +34,16 @@ void checkSize(std::int64_t numFaces, std::int64_t numFaceCorners, Sdc::SchemeTy
     double const first = static_cast<double>(scheme == Sdc::SCHEME_CATMARK ? numFaceCorners : 4 * numFaces);
     double const count = level == 0 ? static_cast<double>(numFaces) : first * std::pow(4.0, level - 1);
     if (count <= std::numeric_limits<int>::max()) return;
-    throw MemoryLimitExceeded("level " + std::to_string(level) +
-                                  " has more faces than 32-bit indices can number; use a lower level",
-                              static_cast<std::uint64_t>(count) * 4 * sizeof(int));
+    throw MemoryLimitExceeded(
+        "level " + std::to_string(level) + " has more faces than 32-bit indices can number; use a lower level",
+        static_cast<std::uint64_t>(count) * 4 * sizeof(int));
 }
 
-int levelsForStart(ShadingOptions const& options) { return options.startNormals.level; }
-
-std::shared_ptr<TableData const> build(RefinedTopology const& topology, ShadingOptions const& options,
+/// `base`: level 0 alone; `options` are resolved.
+std::shared_ptr<TableData const> build(RefinedTopology const& base, ShadingOptions const& options,
                                        ValueOrder order) {
+    tables::CheckTableMemory(base, options, order);
+    RefinedTopology const topology(base.Refiner(), options.startNormals.level);
     return tables::BuildTable(topology, options, order, true);
 }
 
@@ -164,8 +166,7 @@ ShadingTable::ShadingTable(ControlMesh const& mesh, ShadingOptions const& option
     checkOptions(resolved);
     checkSize(static_cast<std::int64_t>(mesh.faceSizes.size()), static_cast<std::int64_t>(mesh.faceVertices.size()),
               mesh.rules.scheme, resolved.level);
-    RefinedTopology const topology(mesh, levelsForStart(resolved));
-    _data = build(topology, resolved, order);
+    _data = build(RefinedTopology(mesh, 0), resolved, order);
 }
 
 ShadingTable::ShadingTable(Far::TopologyRefiner const& refiner, ShadingOptions const& options, ValueOrder order) {
@@ -174,8 +175,7 @@ ShadingTable::ShadingTable(Far::TopologyRefiner const& refiner, ShadingOptions c
     checkOptions(resolved);
     Far::TopologyLevel const base = refiner.GetLevel(0);
     checkSize(base.GetNumFaces(), base.GetNumFaceVertices(), refiner.GetSchemeType(), resolved.level);
-    RefinedTopology const topology(refiner, levelsForStart(resolved));
-    _data = build(topology, resolved, order);
+    _data = build(RefinedTopology(refiner, 0), resolved, order);
 }
 
 ShadingOptions const& ShadingTable::Options() const { return _data->options; }
