@@ -540,6 +540,11 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
     }
     kernels->finish(leaf);
     if (blend == LeafBlend::One && visit.hasNormals) leaf.subdivided = worker.subdivided;  // may stand in for N_L
+    if (!hasTangents && blend == LeafBlend::Zero && leaf.subdividedNormals.data != nullptr) {
+        for (std::size_t i = 0; i < index(numPoints); ++i) {
+            std::fill_n(leaf.subdividedNormals.data + i * leaf.subdividedNormals.stride, 3, 0.0f);
+        }
+    }
     if (needsTangents) {
         // As the tile sees them. N_L is made of those of the class, the same bits whether they are wanted or not.
         Frame2 const& f = place.frame;
