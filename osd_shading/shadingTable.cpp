@@ -33,9 +33,9 @@ void checkSize(std::int64_t numFaces, std::int64_t numFaceCorners, Sdc::SchemeTy
     double const first = static_cast<double>(scheme == Sdc::SCHEME_CATMARK ? numFaceCorners : 4 * numFaces);
     double const count = level == 0 ? static_cast<double>(numFaces) : first * std::pow(4.0, level - 1);
     if (count <= std::numeric_limits<int>::max()) return;
-    throw MemoryLimitExceeded("level " + std::to_string(level) +
-                                  " has more faces than 32-bit indices can number; use a lower level",
-                              static_cast<std::uint64_t>(count) * 4 * sizeof(int));
+    throw MemoryLimitExceeded(
+        "level " + std::to_string(level) + " has more faces than 32-bit indices can number; use a lower level",
+        static_cast<std::uint64_t>(count) * 4 * sizeof(int));
 }
 
 int levelsForStart(ShadingOptions const& options) { return options.startNormals.level; }
