@@ -11,6 +11,7 @@
 #include "osd_shading/oneShotShading.h"
 #include "osd_shading/subdivisionShading.h"
 #include "osd_shading/tables/tableData.h"
+#include "osd_shading/tables/tableEstimate.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -38,10 +39,11 @@ void checkSize(std::int64_t numFaces, std::int64_t numFaceCorners, Sdc::SchemeTy
         static_cast<std::uint64_t>(count) * 4 * sizeof(int));
 }
 
-int levelsForStart(ShadingOptions const& options) { return options.startNormals.level; }
-
-std::shared_ptr<TableData const> build(RefinedTopology const& topology, ShadingOptions const& options,
+/// `base`: level 0 alone; `options` are resolved.
+std::shared_ptr<TableData const> build(RefinedTopology const& base, ShadingOptions const& options,
                                        ValueOrder order) {
+    tables::CheckTableMemory(base, options, order);
+    RefinedTopology const topology(base.Refiner(), options.startNormals.level);
     return tables::BuildTable(topology, options, order, true);
 }
 
@@ -164,8 +166,7 @@ ShadingTable::ShadingTable(ControlMesh const& mesh, ShadingOptions const& option
     checkOptions(resolved);
     checkSize(static_cast<std::int64_t>(mesh.faceSizes.size()), static_cast<std::int64_t>(mesh.faceVertices.size()),
               mesh.rules.scheme, resolved.level);
-    RefinedTopology const topology(mesh, levelsForStart(resolved));
-    _data = build(topology, resolved, order);
+    _data = build(RefinedTopology(mesh, 0), resolved, order);
 }
 
 ShadingTable::ShadingTable(Far::TopologyRefiner const& refiner, ShadingOptions const& options, ValueOrder order) {
@@ -174,8 +175,7 @@ ShadingTable::ShadingTable(Far::TopologyRefiner const& refiner, ShadingOptions c
     checkOptions(resolved);
     Far::TopologyLevel const base = refiner.GetLevel(0);
     checkSize(base.GetNumFaces(), base.GetNumFaceVertices(), refiner.GetSchemeType(), resolved.level);
-    RefinedTopology const topology(refiner, levelsForStart(resolved));
-    _data = build(topology, resolved, order);
+    _data = build(RefinedTopology(refiner, 0), resolved, order);
 }
 
 ShadingOptions const& ShadingTable::Options() const { return _data->options; }

@@ -135,7 +135,7 @@ std::vector<int> MakeLimitStart(RefinedTopology const& topology, RegionLevels& l
     ShadingOptions own;
     own.level = level;
     own.startNormals.level = own.weights.level = std::min(1, level);
-    own.execution = options.execution;
+    own.execution.numThreads = options.execution.numThreads;
     program.limitTable = BuildTable(topology, own, ValueOrder::Tiles, false);
     program.numNormals = program.limitTable->numValues;
 

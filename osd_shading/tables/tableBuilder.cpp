@@ -14,6 +14,7 @@
 #include "osd_shading/tables/borderOwners.h"
 #include "osd_shading/tables/startProgram.h"
 #include "osd_shading/tables/tableData.h"
+#include "osd_shading/tables/tableEstimate.h"
 #include "osd_shading/tables/tileCompiler.h"
 
 namespace osd_shading {
@@ -96,7 +97,9 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
     auto made = std::make_shared<TableData>();
     TableData& data = *made;
     data.options = options;
-    data.options.execution.progress = nullptr;
+    data.options.execution.progress = nullptr;  // what it holds is the caller's
+    BuildProgress progress(options.execution.progress);
+    progress.Enter(0, 0.1);
     data.order = order;
     data.mesh = copyMesh(topology);
     Far::TopologyLevel const& base = topology.Level(0);
@@ -118,10 +121,12 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
     BorderOwners const owners(topology, all, data);
 
     // Tiles and their classes.
+    progress.Enter(0.1, 0.7);
     TileCompiler compiler({data.mesh.rules, options.limits.positions, options.limits.normals,
                            FaceWeightOf(options.startNormals.kind), hasSubdividedNormals, hasLocalWeights});
     std::vector<CompiledTile> const tiles = compiler.CompileAll(
-        levels, lastLevel, hasSubdividedNormals ? normalLevel : 0, [&](int face) { return owners.Of(face); });
+        levels, lastLevel, hasSubdividedNormals ? normalLevel : 0, [&](int face) { return owners.Of(face); },
+        [&](double share) { progress.Tell(share); });
     std::vector<TileField> const fields = compiler.TakeFields();
     data.dictionary = compiler.Take();
 
@@ -144,7 +149,9 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
     std::vector<int> leafSizes;
     std::vector<double> tileWeights;
     std::vector<std::size_t> localPoints(data.dictionary.classes.size(), 0);
+    progress.Enter(0.7, 1);
     for (int f = 0; f < base.GetNumFaces(); ++f) {
+        progress.Tell(static_cast<double>(f) / base.GetNumFaces());
         CompiledTile const& compiled = tiles[index(f)];
         TileClass const& tileClass = data.dictionary.classes[index(compiled.tileClass)];
         Tile tile;
@@ -240,6 +247,7 @@ std::shared_ptr<TableData const> BuildTable(RefinedTopology const& topology, Sha
     stats.startNormals = data.start.numNormals;
     stats.dictionaryBytes = data.dictionary.NumBytes();
     stats.bytes = bytesOfData(data);
+    progress.Tell(1);
     stats.buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return made;
 }

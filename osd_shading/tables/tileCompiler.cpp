@@ -15,6 +15,8 @@ constexpr int kLargestDense = 3;
 /// The same of one that few tiles use, and how many are few: the matrix of 64 points takes as much as some 15
 /// bytes for each value of so many tiles.
 constexpr int kLargestRare = 2, kFewUses = 12;
+/// The share of compiling that counting takes, for those who wait.
+constexpr double kCounting = 0.2;
 /// The same of a regular triangle, whose matrix all share.
 constexpr int kLargestDenseTriangle = 4;
 
@@ -143,7 +145,8 @@ std::vector<TileCompiler::ChildFace> TileCompiler::findChildren(RegionLevels& le
 }
 
 void TileCompiler::countUses(RegionLevels& levels, int k, int q,
-                             std::function<TileOwnership(int)> const& ownershipOf) {
+                             std::function<TileOwnership(int)> const& ownershipOf,
+                             std::function<void(double)> const& tell) {
     // Of tiles that may be matrices, and of those whose children may; each kind of these is looked at once.
     if (k != kLargestDense && k != kLargestDense + 1) return;
     struct Parent {
@@ -153,7 +156,9 @@ void TileCompiler::countUses(RegionLevels& levels, int k, int q,
     std::vector<Parent> parents;
     ClassMap parentOfKey;
     bool const isLimit = isCatmark() && _contents.normals == LimitNormalKind::Limit;
-    for (int f = 0; f < levels.Level(0).GetNumFaces(); ++f) {
+    int const numFaces = levels.Level(0).GetNumFaces();
+    for (int f = 0; f < numFaces; ++f) {
+        tell(kCounting * f / numFaces);
         if (isLimit && findSharpSides(levels, 0, f, k)) continue;
         TileOwnership const own = ownershipOf(f);
         Neighborhood neighborhood = identify(levels, 0, f, k, q, own);
@@ -177,12 +182,16 @@ void TileCompiler::countUses(RegionLevels& levels, int k, int q,
 }
 
 std::vector<CompiledTile> TileCompiler::CompileAll(RegionLevels& levels, int k, int q,
-                                                   std::function<TileOwnership(int)> const& ownershipOf) {
-    countUses(levels, k, q, ownershipOf);
+                                                   std::function<TileOwnership(int)> const& ownershipOf,
+                                                   std::function<void(double)> const& tell) {
+    countUses(levels, k, q, ownershipOf, tell);
     std::vector<CompiledTile> tiles;
     int const numFaces = levels.Level(0).GetNumFaces();
     tiles.reserve(static_cast<std::size_t>(numFaces));
-    for (int f = 0; f < numFaces; ++f) tiles.push_back(compile(levels, 0, f, k, q, ownershipOf(f)));
+    for (int f = 0; f < numFaces; ++f) {
+        tell(kCounting + (1 - kCounting) * f / numFaces);
+        tiles.push_back(compile(levels, 0, f, k, q, ownershipOf(f)));
+    }
     return tiles;
 }
 

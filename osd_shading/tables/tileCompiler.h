@@ -58,9 +58,11 @@ public:
     explicit TileCompiler(TileContents const& contents) : _contents(contents) {}
 
     /// The tiles of all faces of level 0: each has 2^k faces along a side in the end (a face that is no quad: its
-    /// children 2^(k-1)), and normals that start q levels further down. `ownershipOf`: by face.
+    /// children 2^(k-1)), and normals that start q levels further down. `ownershipOf`: by face; `tell`: called with
+    /// the share that is done, may throw.
     std::vector<CompiledTile> CompileAll(RegionLevels& levels, int k, int q,
-                                         std::function<TileOwnership(int)> const& ownershipOf);
+                                         std::function<TileOwnership(int)> const& ownershipOf,
+                                         std::function<void(double)> const& tell);
 
     /// How b is refined, by class; asked for before `Take`.
     std::vector<TileField> TakeFields() { return std::move(_fields); }
@@ -84,7 +86,8 @@ private:
     Neighborhood identify(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own) const;
     CompiledTile compile(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own);
     /// Counts how often each class that may be a matrix will be used, as far as `levels` go.
-    void countUses(RegionLevels& levels, int k, int q, std::function<TileOwnership(int)> const& ownershipOf);
+    void countUses(RegionLevels& levels, int k, int q, std::function<TileOwnership(int)> const& ownershipOf,
+                   std::function<void(double)> const& tell);
     int addClass(MadeClass&& made);
 
     // Splines.
