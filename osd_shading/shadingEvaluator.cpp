@@ -176,6 +176,11 @@ struct ShadingEvaluator::Impl {
     void settle(LeafFrame& leaf, TileClass const& tileClass, Place const& place, int firstValue, Visit& visit);
     void spoil(int numPoints, std::size_t value, std::size_t weight, bool hasTangents, LeafBlend blend,
                Worker const& worker) const;
+    /// Whether a leaf's tangents are needed; where b varies N_S is finished along with N_L.
+    bool needsTangentsOf(LeafBlend blend) const {
+        if (needsLimits) return true;
+        return blend == LeafBlend::Mixed ? needsSubdivided : blend == LeafBlend::Zero && needsBlended;
+    }
     LeafBlend blendOfLeaf(Visit const& visit) const { return visit.leafBlend ? *visit.leafBlend : visit.blend; }
 
     std::shared_ptr<TableData const> data;
@@ -398,7 +403,7 @@ void ShadingEvaluator::Impl::evaluateDense(TileClass const& c, Place const& plac
     TileDictionary const& dictionary = data->dictionary;
     Worker& worker = *visit.worker;
     LeafBlend const blend = blendOfLeaf(visit);
-    bool const hasTangents = needsLimits || (needsBlended && blend != LeafBlend::One);
+    bool const hasTangents = needsTangentsOf(blend);
     bool const hasNormals = visit.hasNormals && blend != LeafBlend::Zero;
     DenseMatrix const& matrix = dictionary.matrices[index(c.frameMatrix)];
     FieldArrays const fields[3] = {worker.position, worker.tangent1, worker.tangent2};
@@ -450,7 +455,7 @@ void ShadingEvaluator::Impl::evaluateSpline(TileClass const& c, Place const& pla
     for (int window = 0; window < numWindows * numWindows; ++window) {
         RowPlan const& plan = dictionary.plans[index(c.plans[index(window)])];
         LeafBlend const blend = blendOfLeaf(visit);
-        bool const hasTangents = needsLimits || (needsBlended && blend != LeafBlend::One);
+        bool const hasTangents = needsTangentsOf(blend);
         bool const hasNormals = visit.hasNormals && blend != LeafBlend::Zero;
         auto const row = index(window / numWindows), column = index(window % numWindows);
         if (plan.numPoints > 0) {
@@ -524,7 +529,22 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
     }
     leaf.doubtful = worker.doubtful.data();
     LeafFrame::Output const du = std::exchange(leaf.tangents1, {}), dv = std::exchange(leaf.tangents2, {});
+    if (blend == LeafBlend::One && hasTangents && leaf.subdivided.x != nullptr) {
+        // N_B is N_S alone: the same bits as where no N_L is asked for.
+        LeafFrame alone = leaf;
+        alone.positions = alone.limitNormals = {};
+        alone.tangent1 = alone.tangent2 = {};
+        kernels->finish(alone);
+        leaf.blendedNormals = leaf.subdividedNormals = {};
+        leaf.subdivided = {};
+    }
     kernels->finish(leaf);
+    if (blend == LeafBlend::One && visit.hasNormals) leaf.subdivided = worker.subdivided;  // may stand in for N_L
+    if (!hasTangents && blend == LeafBlend::Zero && leaf.subdividedNormals.data != nullptr) {
+        for (std::size_t i = 0; i < index(numPoints); ++i) {
+            std::fill_n(leaf.subdividedNormals.data + i * leaf.subdividedNormals.stride, 3, 0.0f);
+        }
+    }
     if (needsTangents) {
         // As the tile sees them. N_L is made of those of the class, the same bits whether they are wanted or not.
         Frame2 const& f = place.frame;

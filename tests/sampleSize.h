@@ -7,11 +7,11 @@
 
 // clang has no macro of its own for it.
 #if defined(__has_feature)
-#    if __has_feature(address_sanitizer)
+#    if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #        define OSD_SHADING_UNDER_SANITIZER 1
 #    endif
 #endif
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #    define OSD_SHADING_UNDER_SANITIZER 1
 #endif
 

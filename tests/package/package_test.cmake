@@ -61,7 +61,7 @@ function(consume standard)
 endfunction()
 
 function(expect_program_output standard output)
-    string(FIND "${output}" "C++${standard}, 1536 faces, as OpenSubdiv\nrefused\n" where)
+    string(FIND "${output}" "C++${standard}, 1536 faces, as OpenSubdiv\nframe\nrefused\n" where)
     if(NOT where EQUAL 0)
         message(FATAL_ERROR "the program printed:\n${output}")
     endif()

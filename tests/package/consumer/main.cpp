@@ -2,12 +2,16 @@
 //
 // A user of the library: shades a cube, and catches an error that the library throws.
 #include <osd_shading/geometryCheck.h>
+#include <osd_shading/primvarTable.h>
+#include <osd_shading/shadingEvaluator.h>
 #include <osd_shading/subdivisionShading.h>
 
 #ifdef WITH_FILES
 #    include <osd_shading/io/objReader.h>
 #endif
 
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <vector>
 
@@ -26,6 +30,30 @@ int main() {
     auto const check = osd_shading::CheckGeometry(mesh, input.positions, shaded);
     std::printf("C++%ld, %d faces, %s\n", __cplusplus / 100 % 100, shaded.NumFaces(),
                 check.Passes(1e-12) ? "as OpenSubdiv" : "unlike OpenSubdiv");
+
+    // The same as a frame of a moving mesh, on two threads.
+    osd_shading::ShadingTable const table(mesh);
+    osd_shading::EvaluatorOptions options;
+    options.numThreads = 2;
+    osd_shading::ShadingEvaluator evaluator(table, options);
+    std::vector<float> const floats(points.begin(), points.end());
+    std::vector<float> normals(3 * static_cast<std::size_t>(table.NumValues()));
+    osd_shading::ShadingOutputs outputs;
+    outputs.blendedNormals = {normals.data(), normals.size() / 3, 3};
+    evaluator.Evaluate({floats.data(), 8}, outputs);
+    std::vector<int> const values = table.ResultValues();
+    double largest = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        auto const& n = shaded.blendedNormals[static_cast<std::size_t>(values[i])];
+        largest = std::fmax(largest, std::fabs(n.x - double{normals[3 * i]}));
+        largest = std::fmax(largest, std::fabs(n.y - double{normals[3 * i + 1]}));
+        largest = std::fmax(largest, std::fabs(n.z - double{normals[3 * i + 2]}));
+    }
+    auto const primvars = osd_shading::BuildPrimvarTable<float>(mesh, {});
+    std::puts(largest < 1e-5 &&
+                      primvars.vertexData.Reordered(table.RefinedVertices()).NumRows() == table.NumValues()
+                  ? "frame"
+                  : "another frame");
 
     mesh.rules.scheme = osd_shading::Sdc::SCHEME_LOOP;
     try {
