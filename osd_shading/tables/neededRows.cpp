@@ -87,6 +87,11 @@ void NeededRows::addElements(int level, std::vector<std::pair<int, int>> const& 
     };
 
     // First those made of the level before alone.
+    own.elements.reserve(2 * wanted.size());
+    own.vertices.reserve(2 * wanted.size());
+    own.offsets.reserve(2 * wanted.size() + 1);
+    own.terms.reserve(10 * wanted.size());
+    own.weights.reserve(10 * wanted.size());
     std::vector<std::pair<int, int>> derived;
     auto const isOwn = [](auto const& term) { return term.first < 0; };
     for (auto const& [element, vertex] : wanted) {
@@ -97,14 +102,17 @@ void NeededRows::addElements(int level, std::vector<std::pair<int, int>> const& 
             append(element, vertex);
         }
     }
+    std::vector<int> named;
     for (auto const& [element, vertexOfDerived] : derived) {
         findTerms(element, vertexOfDerived);
-        std::vector<std::pair<int, double>> const named = terms;
-        for (auto const& [source, weight] : named) {
-            if (source >= 0 || slots[static_cast<std::size_t>(~source)] >= 0) continue;
-            int const vertex = vertexOf(level, ~source);
-            findTerms(~source, vertex);
-            append(~source, vertex);
+        named.clear();
+        for (auto const& [source, weight] : terms) {
+            if (source < 0 && slots[static_cast<std::size_t>(~source)] < 0) named.push_back(~source);
+        }
+        for (int const source : named) {
+            int const vertex = vertexOf(level, source);
+            findTerms(source, vertex);
+            append(source, vertex);
         }
     }
     for (auto const& [element, vertex] : derived) {
@@ -118,12 +126,16 @@ FlatRows ComposeRows(NeededRows const& rows) {
     RowAdder sum(width);
     FlatRows composed;
     for (std::size_t i = 0; i < width; ++i) {
-        sum.Add(static_cast<int>(i), 1);
-        sum.MoveTo(composed);
+        composed.sources.push_back(static_cast<int>(i));
+        composed.weights.push_back(1);
+        composed.offsets.push_back(i + 1);
     }
     for (int level = rows.FirstLevel() + 1; level <= rows.LastLevel(); ++level) {
         NeededLevel const& needed = rows.Level(level);
         FlatRows next;
+        next.offsets.reserve(needed.Size() + 1);
+        next.sources.reserve(needed.Size() * std::min<std::size_t>(width, 16));
+        next.weights.reserve(needed.Size() * std::min<std::size_t>(width, 16));
         for (std::size_t i = 0; i < needed.Size(); ++i) {
             for (std::size_t t = needed.offsets[i]; t < needed.offsets[i + 1]; ++t) {
                 int const term = needed.terms[t];

@@ -71,20 +71,33 @@ struct FlatRows {
 /// One row while it is added up.
 class RowAdder {
 public:
-    explicit RowAdder(std::size_t numSources) : _weights(numSources, 0.0), _isUsed(numSources, 0) {}
+    explicit RowAdder(std::size_t numSources)
+        : _weights(numSources, 0.0), _isUsed(numSources <= kFewSources ? 0 : numSources, 0) {}
 
-    void Add(int source, double weight) {
-        auto const i = static_cast<std::size_t>(source);
-        if (!std::exchange(_isUsed[i], 1)) _used.push_back(source);
-        _weights[i] += weight;
-    }
     void AddRow(FlatRows const& rows, std::size_t row, double weight) {
-        for (std::size_t t = rows.offsets[row]; t < rows.offsets[row + 1]; ++t) {
-            Add(rows.sources[t], weight * rows.weights[t]);
+        std::size_t const end = rows.offsets[row + 1];
+        if (_isUsed.empty()) {
+            for (std::size_t t = rows.offsets[row]; t < end; ++t) {
+                _weights[static_cast<std::size_t>(rows.sources[t])] += weight * rows.weights[t];
+            }
+            return;
+        }
+        for (std::size_t t = rows.offsets[row]; t < end; ++t) {
+            auto const i = static_cast<std::size_t>(rows.sources[t]);
+            if (!std::exchange(_isUsed[i], 1)) _used.push_back(rows.sources[t]);
+            _weights[i] += weight * rows.weights[t];
         }
     }
     /// Appends the sum to `rows`, and starts anew.
     void MoveTo(FlatRows& rows) {
+        if (_isUsed.empty()) {
+            for (std::size_t i = 0; i < _weights.size(); ++i) {
+                if (_weights[i] == 0) continue;
+                rows.sources.push_back(static_cast<int>(i));
+                rows.weights.push_back(_weights[i]);
+                _weights[i] = 0;
+            }
+        }
         for (int const source : _used) {
             auto const i = static_cast<std::size_t>(source);
             rows.sources.push_back(source);
@@ -97,8 +110,10 @@ public:
     }
 
 private:
+    static constexpr std::size_t kFewSources = 64;  // as many are looked at sooner than listed
+
     std::vector<double> _weights;
-    std::vector<unsigned char> _isUsed;
+    std::vector<unsigned char> _isUsed;  // empty with few sources
     std::vector<int> _used;
 };
 

@@ -14,7 +14,8 @@ inline namespace v1 {
 namespace tables {
 
 /// Bytes that building a table takes at most, the table included: an estimate from above, from level 0 alone. Each
-/// irregular face counts as if no other were like it. Saturates.
+/// irregular face counts as if no other were like it, so it is 2 to 3 times what meshes take that are made to have
+/// no like faces, and 4 to 20 times what others do. Saturates.
 std::uint64_t EstimateTableBytes(RefinedTopology const& base, ShadingOptions const& options, ValueOrder order);
 
 /// Throws MemoryLimitExceeded where that is more than `options.execution.memoryLimit`, or where levels that must be

@@ -17,6 +17,12 @@ constexpr int kLargestDense = 3;
 constexpr int kLargestRare = 2, kFewUses = 12;
 /// The share of compiling that counting takes, for those who wait.
 constexpr double kCounting = 0.2;
+/// The most neighbourhoods that are kept between counting and compiling: some kilobytes each.
+constexpr std::size_t kMostRecalled = 4096;
+
+std::uint64_t faceKey(int level, int face) {
+    return static_cast<std::uint64_t>(level) << 32 | static_cast<std::uint32_t>(face);
+}
 /// The same of a regular triangle, whose matrix all share.
 constexpr int kLargestDenseTriangle = 4;
 
@@ -127,6 +133,19 @@ TileCompiler::Neighborhood TileCompiler::identify(RegionLevels& levels, int leve
     return found;
 }
 
+TileCompiler::Neighborhood TileCompiler::recall(RegionLevels& levels, int level, int face, int k, int q,
+                                                TileOwnership const& own) {
+    if (&levels == _counted) {
+        auto const kept = _recalled.find(faceKey(level, face));
+        if (kept != _recalled.end()) {
+            Neighborhood neighborhood = std::move(kept->second);
+            _recalled.erase(kept);
+            return neighborhood;
+        }
+    }
+    return identify(levels, level, face, k, q, own);
+}
+
 std::vector<TileCompiler::ChildFace> TileCompiler::findChildren(RegionLevels& levels, int level, int face,
                                                                 int rotation, int k,
                                                                 TileOwnership const& own) const {
@@ -157,26 +176,32 @@ void TileCompiler::countUses(RegionLevels& levels, int k, int q,
     ClassMap parentOfKey;
     bool const isLimit = isCatmark() && _contents.normals == LimitNormalKind::Limit;
     int const numFaces = levels.Level(0).GetNumFaces();
+    _counted = &levels;
+    auto const keep = [&](int level, int face, Neighborhood&& neighborhood) {
+        if (_recalled.size() < kMostRecalled) _recalled.emplace(faceKey(level, face), std::move(neighborhood));
+    };
     for (int f = 0; f < numFaces; ++f) {
         tell(kCounting * f / numFaces);
         if (isLimit && findSharpSides(levels, 0, f, k)) continue;
         TileOwnership const own = ownershipOf(f);
         Neighborhood neighborhood = identify(levels, 0, f, k, q, own);
         if (k == kLargestDense) {
-            ++_usesOfKey[std::move(neighborhood.key)];
-            continue;
+            ++_usesOfKey[neighborhood.key];
+        } else {
+            auto const [known, isNew] = parentOfKey.emplace(neighborhood.key, static_cast<int>(parents.size()));
+            int const rotation = neighborhood.rotation;
+            if (isNew) parents.push_back({f, rotation, 0, own.Rotated(rotation)});
+            ++parents[static_cast<std::size_t>(known->second)].uses;
         }
-        auto const [known, isNew] =
-            parentOfKey.emplace(std::move(neighborhood.key), static_cast<int>(parents.size()));
-        int const rotation = neighborhood.rotation;
-        if (isNew) parents.push_back({f, rotation, 0, own.Rotated(rotation)});
-        ++parents[static_cast<std::size_t>(known->second)].uses;
+        keep(0, f, std::move(neighborhood));
     }
     if (levels.Topology().LastLevel() < 1) return;
     for (Parent const& parent : parents) {
         for (ChildFace const& child : findChildren(levels, 0, parent.face, parent.rotation, k, parent.own)) {
             if (isLimit && findSharpSides(levels, 1, child.face, k - 1)) continue;
-            _usesOfKey[identify(levels, 1, child.face, k - 1, std::max(0, q - 1), child.own).key] += parent.uses;
+            Neighborhood neighborhood = identify(levels, 1, child.face, k - 1, std::max(0, q - 1), child.own);
+            _usesOfKey[neighborhood.key] += parent.uses;
+            keep(1, child.face, std::move(neighborhood));
         }
     }
 }
@@ -203,7 +228,7 @@ CompiledTile TileCompiler::compile(RegionLevels& levels, int level, int face, in
         }
     }
 
-    Neighborhood neighborhood = identify(levels, level, face, k, q, own);
+    Neighborhood neighborhood = recall(levels, level, face, k, q, own);
     TileRing const& ring = neighborhood.ring;
     CompiledTile tile;
     tile.rotation = neighborhood.rotation;

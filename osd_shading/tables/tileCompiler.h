@@ -84,6 +84,8 @@ private:
         int rotation = 0;
     };
     Neighborhood identify(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own) const;
+    /// The same, once more for what `countUses` has looked at.
+    Neighborhood recall(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own);
     CompiledTile compile(RegionLevels& levels, int level, int face, int k, int q, TileOwnership const& own);
     /// Counts how often each class that may be a matrix will be used, as far as `levels` go.
     void countUses(RegionLevels& levels, int k, int q, std::function<TileOwnership(int)> const& ownershipOf,
@@ -125,6 +127,8 @@ private:
     std::vector<ClassSources> _sources;  // by class
     std::vector<TileField> _fields;      // by class
     ClassMap _classOfKey, _usesOfKey;
+    RegionLevels* _counted = nullptr;                           // what countUses has looked at
+    std::unordered_map<std::uint64_t, Neighborhood> _recalled;  // of its faces, by level and face; some alone
     std::vector<std::size_t> _planOffsets, _weightOffsets;
     std::unordered_multimap<std::uint64_t, int> _planOfHash, _matrixOfHash;
 };

@@ -295,107 +295,8 @@ void TileWeights::appendDense(int tileClass, int level, WeightSources const& sou
     }
 }
 
-namespace {
-
-/// One direction of the control grid of a regular face: points from -1 to `numCells` + 1, but none beyond a sharp
-/// end.
-struct GridAxis {
-    int numCells;
-    bool isSharpAtStart, isSharpAtEnd;
-
-    int First() const { return isSharpAtStart ? 0 : -1; }
-    int Last() const { return isSharpAtEnd ? numCells : numCells + 1; }
-    int Size() const { return Last() - First() + 1; }
-    bool IsOnSharpEnd(int i) const { return (isSharpAtStart && i == 0) || (isSharpAtEnd && i == numCells); }
-    GridAxis Refined() const { return {2 * numCells, isSharpAtStart, isSharpAtEnd}; }
-};
-
-struct AxisTerm {
-    int source;  ///< from the first
-    double weight;
-};
-using AxisRows = std::vector<std::vector<AxisTerm>>;
-
-/// The rows of the refined axis.
-AxisRows refineAxis(GridAxis const& axis) {
-    GridAxis const next = axis.Refined();
-    AxisRows rows;
-    for (int i = next.First(); i <= next.Last(); ++i) {
-        int const at = (i + 2) / 2 - 1 - axis.First();  // rounds down
-        if (i % 2 != 0) {
-            rows.push_back({{at, 0.5}, {at + 1, 0.5}});
-        } else if (axis.IsOnSharpEnd(i / 2)) {
-            rows.push_back({{at, 1}});
-        } else {
-            rows.push_back({{at - 1, 0.125}, {at, 0.75}, {at + 1, 0.125}});
-        }
-    }
-    return rows;
-}
-
-/// The rows of limits at the parameters of the last level, of which a cell has 2^`k`. Beyond a sharp end a spline
-/// has the mirror image of the point inside: what the two weigh together is never negative.
-AxisRows limitAxis(GridAxis const& axis, int k) {
-    int const perCell = 1 << k;
-    AxisRows rows;
-    for (int p = 0; p <= axis.numCells * perCell; ++p) {
-        int const cell = std::min(p / perCell, axis.numCells - 1);
-        double const t = static_cast<double>(p - cell * perCell) / perCell, s = 1 - t;
-        double const t3 = t * t * t, s3 = s * s * s;
-        // Of the points at cell - 1 .. cell + 2.
-        double w[4] = {s3 / 6, (4 - 6 * t * t + 3 * t3) / 6, (4 - 6 * s * s + 3 * s3) / 6, t3 / 6};
-        bool const foldsStart = axis.isSharpAtStart && cell == 0;
-        bool const foldsEnd = axis.isSharpAtEnd && cell == axis.numCells - 1;
-        if (foldsStart && foldsEnd) {
-            w[0] = w[3] = 0;
-            w[1] = s;
-            w[2] = t;
-        } else if (foldsStart) {
-            w[0] = 0;
-            w[1] = s + t3 / 6;
-            w[2] = t - t3 / 3;
-        } else if (foldsEnd) {
-            w[3] = 0;
-            w[2] = t + s3 / 6;
-            w[1] = s - s3 / 3;
-        }
-        std::vector<AxisTerm> row;
-        for (int i = 0; i < 4; ++i) {
-            if (w[i] > 0) row.push_back({cell - 1 + i - axis.First(), w[i]});
-        }
-        rows.push_back(std::move(row));
-    }
-    return rows;
-}
-
-/// Values on a grid, row by row, times the rows of both directions.
-std::vector<double> applyAxes(std::vector<double> const& grid, int numColumns, AxisRows const& u,
-                              AxisRows const& v) {
-    std::size_t const numRows = grid.size() / index(numColumns);
-    std::vector<double> across(numRows * u.size());
-    for (std::size_t row = 0; row < numRows; ++row) {
-        double const* const from = grid.data() + row * index(numColumns);
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            double sum = 0;
-            for (AxisTerm const& term : u[i]) sum += term.weight * from[term.source];
-            across[row * u.size() + i] = sum;
-        }
-    }
-    std::vector<double> result(v.size() * u.size(), 0.0);
-    for (std::size_t i = 0; i < v.size(); ++i) {
-        double* const to = result.data() + i * u.size();
-        for (AxisTerm const& term : v[i]) {
-            double const* const from = across.data() + index(term.source) * u.size();
-            for (std::size_t j = 0; j < u.size(); ++j) to[j] += term.weight * from[j];
-        }
-    }
-    return result;
-}
-
-}  // namespace
-
 void TileWeights::appendSpline(int tileClass, int level, WeightSources const& sources,
-                               std::vector<double>& weights) const {
+                               std::vector<double>& weights) {
     TileClass const& c = _dictionary.classes[index(tileClass)];
     unsigned const sides = _fields[index(tileClass)].sharpSides;
     auto const isSharp = [&](unsigned side) { return (sides & (1u << side)) != 0; };
@@ -413,7 +314,7 @@ void TileWeights::appendSpline(int tileClass, int level, WeightSources const& so
         ++level;
         GridAxis const nextU = u.Refined(), nextV = v.Refined();
         WeightSources next;
-        next.weights = applyAxes(grid.weights, u.Size(), refineAxis(u), refineAxis(v));
+        next.weights = ApplyAxes(grid.weights, u.Size(), _axes.Refinement(u), _axes.Refinement(v));
         next.seeds.assign(next.weights.size(), 0);
         for (int row = nextV.First(); row <= nextV.Last(); ++row) {
             for (int column = nextU.First(); column <= nextU.Last(); ++column) {
@@ -439,7 +340,7 @@ void TileWeights::appendSpline(int tileClass, int level, WeightSources const& so
     }
 
     int const k = _lastLevel - level;
-    std::vector<double> const all = applyAxes(grid.weights, u.Size(), limitAxis(u, k), limitAxis(v, k));
+    std::vector<double> const all = ApplyAxes(grid.weights, u.Size(), _axes.Limits(u, k), _axes.Limits(v, k));
     int const pitch = (1 << c.k) + 1, numWindows = NumWindows(c.k), side = 1 << std::min<int>(c.k, 4);
     for (int window = 0; window < numWindows * numWindows; ++window) {
         RowPlan const& plan = _dictionary.plans[index(c.plans[index(window)])];

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "osd_shading/blendWeights.h"
+#include "osd_shading/tables/gridAxis.h"
 #include "osd_shading/tables/tileDictionary.h"
 #include "osd_shading/tables/tileField.h"
 
@@ -54,7 +55,7 @@ public:
 private:
     void appendSplit(int tileClass, int level, WeightSources const& sources, std::vector<double>& weights);
     void appendDense(int tileClass, int level, WeightSources const& sources, std::vector<double>& weights) const;
-    void appendSpline(int tileClass, int level, WeightSources const& sources, std::vector<double>& weights) const;
+    void appendSpline(int tileClass, int level, WeightSources const& sources, std::vector<double>& weights);
     WeightSources refine(FieldStage const& stage, int level, WeightSources const& sources) const;
 
     BlendWeightOptions const& _options;
@@ -62,6 +63,7 @@ private:
     std::vector<TileField> const& _fields;
     bool _isCatmark;
     int _lastLevel;
+    AxisRules _axes;
     std::unordered_map<std::string, std::vector<double>> _known;  // of leaves
 };
 
