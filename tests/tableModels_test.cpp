@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -57,6 +58,15 @@ std::vector<Case> CasesOf(std::string const& file) {
 /// Rounding of float coordinates, some units in the last place, of the model's size; and of normals.
 constexpr double kPositions = 2e-7, kNormals = 1e-5;
 
+/// The bounds above are those of sums of some twenty products. A pole's are longer, and their rounding grows with
+/// the root of that: at valence 360 a thin tile's normal is 5e-5 off.
+double RoundingAtPoles(io::Model const& model) {
+    std::vector<int> valences(model.positions.size() / 3, 0);
+    for (int const v : model.faceVertices) ++valences[static_cast<std::size_t>(v)];
+    constexpr double kOrdinary = 8;
+    return std::sqrt(std::max(1.0, *std::max_element(valences.begin(), valences.end()) / kOrdinary));
+}
+
 /// The figures of one comparison, which a full run prints.
 void ExpectAgreement(Case const& c, ShadingOptions const& options, std::string const& what) {
     ShadingTable const table(c.Mesh(), options);
@@ -65,8 +75,9 @@ void ExpectAgreement(Case const& c, ShadingOptions const& options, std::string c
     Agreement const agreement = Compare(frame, table.ResultValues(), reference);
     std::string const name = c.Name() + ", level " + std::to_string(options.level) + ", " + what;
     EXPECT_TRUE(agreement.isNumbered) << name;
-    EXPECT_LE(agreement.position, kPositions) << name;
-    EXPECT_LE(agreement.normal, kNormals) << name << ": " << agreement.worst;
+    double const rounding = RoundingAtPoles(c.model);
+    EXPECT_LE(agreement.position, rounding * kPositions) << name;
+    EXPECT_LE(agreement.normal, rounding * kNormals) << name << ": " << agreement.worst;
     EXPECT_EQ(agreement.supportDiffers, 0) << name;
     EXPECT_LE(agreement.weight, 1e-6) << name;
     if (IsFullRun()) {
