@@ -85,7 +85,7 @@ struct ShadingEvaluator::Impl {
     /// What one thread works with.
     struct Worker {
         std::vector<float> memory;  // field arrays of a leaf, aligned by hand
-        FieldArrays position, tangent1, tangent2, subdivided;
+        FieldArrays position{}, tangent1{}, tangent2{}, subdivided{};
         std::vector<LocalPoint> local;
         std::vector<std::uint16_t> doubtful;
         std::array<std::vector<float>, kNumVectors> ordered;  // of a leaf whose values go elsewhere

@@ -220,7 +220,7 @@ std::vector<int> ShadingTable::FaceValues() const {
 }
 
 std::vector<int> ShadingTable::TriangleValues() const {
-    std::vector<int> const faces = FaceValues();
+    std::vector<int> faces = FaceValues();
     if (FaceSize() == 3) return faces;
     std::vector<int> triangles;
     triangles.reserve(faces.size() / 2 * 3);
@@ -259,6 +259,7 @@ void forEachValue(TableData const& data, RefinedTopology const& topology, Visit 
 
 RefinedTopology refineAgain(TableData const& data) {
     std::vector<int> sizes;
+    sizes.reserve(index(data.mesh.NumFaces()));
     for (int f = 0; f < data.mesh.NumFaces(); ++f) sizes.push_back(data.mesh.FaceSize(f));
     ControlMesh mesh;
     mesh.numVertices = data.mesh.numVertices;

@@ -45,6 +45,7 @@ public:
             first = start;
         }
         std::vector<bool> isSharp;
+        isSharp.reserve(edges.size());
         for (int const child : edges) isSharp.push_back(IsSharpEdge(_topology.Level(_lastLevel), child));
         return isSharp;
     }

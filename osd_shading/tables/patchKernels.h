@@ -32,7 +32,7 @@ inline LocalPoint operator-(LocalPoint const& a, LocalPoint const& b) {
 
 /// The larger size of each component, without signs.
 inline LocalPoint LargerOf(LocalPoint const& a, LocalPoint const& b) {
-    LocalPoint c;
+    LocalPoint c{};
     for (int i = 0; i < 4; ++i) {
         float const size = b.v[i] < 0 ? -b.v[i] : b.v[i];
         c.v[i] = a.v[i] > size ? a.v[i] : size;

@@ -270,6 +270,7 @@ void placeLeaf(TileClass const& leaf, ChildTile& child) {
     if (leaf.kind == TileKind::Split || leaf.pointRows.NumRows() > 0 || leaf.normalRows.NumRows() > 0) return;
     auto const compose = [](std::vector<std::uint16_t>& indices, std::vector<std::uint16_t> const& own) {
         std::vector<std::uint16_t> composed;
+        composed.reserve(own.size());
         for (auto const i : own) composed.push_back(indices[i]);
         indices.swap(composed);
     };
