@@ -4,46 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstddef>
-#include <cstdlib>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tests/countedAllocations.h"
 #include "tests/tableAgreement.h"
-
-namespace {
-
-std::atomic<std::int64_t> numAllocations{0};
-
-void* Allocate(std::size_t size, std::size_t alignment) {
-    ++numAllocations;
-    // std::aligned_alloc wants whole multiples.
-    void* const memory = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return Allocate(size, alignof(std::max_align_t)); }
-void* operator new[](std::size_t size) { return Allocate(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    return Allocate(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-    return Allocate(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace osd_shading::tests {
 namespace {
@@ -70,9 +37,9 @@ private:
 };
 
 TEST(EvaluatorAllocations, AreCounted) {
-    std::int64_t const before = numAllocations;
+    std::int64_t const before = NumAllocations();
     std::vector<int> const numbers(100);
-    EXPECT_EQ(numAllocations, before + 1);
+    EXPECT_EQ(NumAllocations(), before + 1);
     EXPECT_EQ(numbers[99], 0);
 }
 
@@ -111,11 +78,11 @@ TEST(EvaluatorAllocations, AFrameMakesNone) {
                     own.numThreads = numThreads;
                     ShadingEvaluator evaluator(table, own);
                     // From the first frame on.
-                    std::int64_t const before = numAllocations;
+                    std::int64_t const before = NumAllocations();
                     FrameReport const report = evaluator.Evaluate(view, normals, all);
                     evaluator.Evaluate(view, normals, onlyNormals);
                     evaluator.Evaluate(view, normals, all);
-                    EXPECT_EQ(numAllocations, before)
+                    EXPECT_EQ(NumAllocations(), before)
                         << shape.name << ", " << name << ", " << numThreads << " threads";
                     EXPECT_EQ(report.fallbackNormals, 0) << shape.name << ", " << name;
                 }

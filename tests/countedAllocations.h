@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace osd_shading::tests {
+
+/// How often memory was taken with `new` since the program began, in a program that links countedAllocations.cpp:
+/// a file of its own, for a compiler that sees `free` next to what it was called on takes it for a mistake.
+std::int64_t NumAllocations();
+
+}  // namespace osd_shading::tests
