@@ -18,10 +18,13 @@ namespace Sdc = OpenSubdiv::OPENSUBDIV_VERSION::Sdc;
 /// default would turn every boundary face into a hole).
 struct SubdivisionRules {
     Sdc::SchemeType scheme = Sdc::SCHEME_CATMARK;  ///< Catmull-Clark or Loop; bilinear is refused
-    Sdc::Options::VtxBoundaryInterpolation boundary = Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;
-    Sdc::Options::FVarLinearInterpolation faceVarying = Sdc::Options::FVAR_LINEAR_ALL;
-    Sdc::Options::CreasingMethod creasing = Sdc::Options::CREASE_UNIFORM;
-    Sdc::Options::TriangleSubdivision triangles = Sdc::Options::TRI_SUB_CATMARK;
+    Sdc::Options::VtxBoundaryInterpolation boundary =
+        Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;  ///< what boundary edges and corners keep
+    Sdc::Options::FVarLinearInterpolation faceVarying =
+        Sdc::Options::FVAR_LINEAR_ALL;  ///< OpenSubdiv's rule for UVs and the like, not for normals
+    Sdc::Options::CreasingMethod creasing = Sdc::Options::CREASE_UNIFORM;  ///< how a semi-sharp crease fades
+    Sdc::Options::TriangleSubdivision triangles =
+        Sdc::Options::TRI_SUB_CATMARK;  ///< Catmull-Clark: the rule for triangles
 };
 
 /// The topology of a control mesh as plain arrays; views only, nothing is copied or owned.
@@ -29,7 +32,7 @@ struct SubdivisionRules {
 /// Everything that OpenSubdiv accepts is accepted (n-gons in Catmull-Clark, open meshes, holes, several
 /// components, isolated vertices, non-manifold joins), in any order.
 struct ControlMesh {
-    int numVertices = 0;
+    int numVertices = 0;          ///< also those that no face names
     ArrayView<int> faceSizes;     ///< per face: number of vertices, 3 or more (Loop: 3)
     ArrayView<int> faceVertices;  ///< per face corner, counter-clockwise: vertex in [0, numVertices)
 
@@ -39,7 +42,7 @@ struct ControlMesh {
     ArrayView<float> cornerSharpness;  ///< per corner entry: as creaseSharpness
     ArrayView<int> holes;              ///< faces that are refined but left out of the result's faces
 
-    SubdivisionRules rules;
+    SubdivisionRules rules;  ///< scheme, boundaries, creasing
 };
 // Where several entries name one edge (or vertex) the highest sharpness counts. OpenSubdiv would take the last.
 

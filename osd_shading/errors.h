@@ -36,6 +36,7 @@ public:
 /// indices can number. Thrown before refining.
 class OSD_SHADING_API MemoryLimitExceeded : public Error {
 public:
+    /// `text` says what was refused, `bytes` what it would take.
     MemoryLimitExceeded(std::string const& text, std::uint64_t bytes) : Error(text), _bytes(bytes) {}
     ~MemoryLimitExceeded() override;
 

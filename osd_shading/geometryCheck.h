@@ -18,13 +18,13 @@ struct GeometryComparison {
     std::int64_t compared = 0;  ///< of them, those compared: where OpenSubdiv is exact
     double largest = 0;         ///< largest difference: share of the model's size; limit normals: radians
     int level = -1;             ///< where it is; -1: nothing was compared
-    int vertex = -1;
+    int vertex = -1;            ///< likewise: OpenSubdiv's number of it there
 };
 
 /// The largest differences between a result and OpenSubdiv's own numbers.
 struct GeometryCheck {
-    double modelSize = 0;  ///< diagonal of the control points' bounding box
-    std::vector<GeometryComparison> comparisons;
+    double modelSize = 0;                         ///< diagonal of the control points' bounding box
+    std::vector<GeometryComparison> comparisons;  ///< one per name, in the order of that list
 
     /// Whether every position is within `tolerance` of the model's size and every limit normal within 1000 times
     /// `tolerance` radians.

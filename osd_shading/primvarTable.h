@@ -24,8 +24,9 @@ namespace Far = OpenSubdiv::OPENSUBDIV_VERSION::Far;
 /// left alone.
 template <typename Real>
 struct PrimvarSpan {
-    Real* data = nullptr;
-    std::size_t count = 0, stride = 0;
+    Real* data = nullptr;    ///< the first number of the first element
+    std::size_t count = 0;   ///< elements
+    std::size_t stride = 0;  ///< in `Real`s; 0: packed
 };
 
 /// Turns control values of a primvar, of any width, into refined ones. `Real`: float or double, also of the
@@ -35,16 +36,21 @@ struct PrimvarSpan {
 template <typename Real>
 class OSD_SHADING_API PrimvarRows {
 public:
-    PrimvarRows();  ///< no rows
+    /// \name Life
+    /// @{
+
+    /// Copies share what they hold; a default one has no rows.
+    PrimvarRows();
     ~PrimvarRows();
     PrimvarRows(PrimvarRows const&);
     PrimvarRows(PrimvarRows&&) noexcept;
     PrimvarRows& operator=(PrimvarRows const&);
     PrimvarRows& operator=(PrimvarRows&&) noexcept;
+    /// @}
 
-    int NumControlValues() const;
-    int NumRows() const;  ///< refined values
-    std::size_t NumBytes() const;
+    int NumControlValues() const;  ///< what a row is a sum of
+    int NumRows() const;           ///< refined values
+    std::size_t NumBytes() const;  ///< memory that the rows take; copies share it
 
     /// Row i is this object's row rows[i]: any number of them, in any order, also repeated.
     ///
@@ -75,9 +81,10 @@ private:
 /// A face-varying channel of the control mesh.
 struct FaceVaryingChannel {
     ArrayView<int> indices;  ///< per face corner: a value, 0 to numValues - 1
-    int numValues = 0;
+    int numValues = 0;       ///< control values of the channel
 };
 
+/// The rows of one face-varying channel.
 template <typename Real>
 struct FaceVaryingRows {
     PrimvarRows<Real> values;      ///< per refined value
@@ -105,6 +112,8 @@ struct PrimvarTable {
     std::vector<int> faceVertices;  ///< faceSize per face, as ShadingResult::faceVertices
 };
 
+/// Builds the table of a control mesh and its channels.
+///
 /// Of `options`, `level`, `limits.positions` and `execution` count: pass those of what is shaded.
 ///
 /// ERRORS: InvalidControlMesh (also where a channel has the wrong number of indices, or one that names no value),

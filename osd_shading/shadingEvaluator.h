@@ -15,20 +15,22 @@ inline namespace v1 {
 ///
 /// Floats between the points are left alone. Empty: not wanted.
 struct PointSpan {
-    float* data = nullptr;
-    std::size_t count = 0, stride = 3;
+    float* data = nullptr;   ///< x of the first point
+    std::size_t count = 0;   ///< points
+    std::size_t stride = 3;  ///< floats from point to point, at least 3
 };
 
 /// Writable view over single numbers, number i at `data + i * stride`. Empty: not wanted.
 struct NumberSpan {
-    float* data = nullptr;
-    std::size_t count = 0, stride = 1;
+    float* data = nullptr;   ///< the first number
+    std::size_t count = 0;   ///< numbers
+    std::size_t stride = 1;  ///< floats from number to number, at least 1
 };
 
 /// Where a frame goes: each view is empty or has ShadingTable::NumValues() elements. They may interleave in one
 /// buffer, but not overlap.
 struct ShadingOutputs {
-    PointSpan positions;
+    PointSpan positions;          ///< of the limit surface, or as options.limits.positions has it
     PointSpan blendedNormals;     ///< N_B, unit length or zero
     PointSpan limitNormals;       ///< N_L, unit length or zero
     PointSpan subdividedNormals;  ///< N_S, unit length; zero where b = 0
@@ -36,7 +38,8 @@ struct ShadingOutputs {
     /// (edge 0 of the face runs along u); at extraordinary and sharp vertices they point along those edges, their
     /// lengths are those of OpenSubdiv's tangent masks. At corners of several faces, where no tangent plane exists,
     /// zero.
-    PointSpan du, dv;
+    PointSpan du;
+    PointSpan dv;             ///< see `du`
     NumberSpan blendWeights;  ///< the limit of b
 };
 
@@ -52,9 +55,10 @@ enum class InstructionSet {
 /// Whether this build and this processor have `set`.
 OSD_SHADING_API bool IsAvailable(InstructionSet set);
 
+/// How frames are evaluated.
 struct EvaluatorOptions {
     int numThreads = 1;  ///< 1 or more; 0: as many as the machine has. The result is the same bits
-    InstructionSet instructionSet = InstructionSet::Best;
+    InstructionSet instructionSet = InstructionSet::Best;  ///< one that `IsAvailable`
 };
 
 /// What a frame met.
@@ -77,8 +81,8 @@ public:
     /// ERRORS: InvalidOptions where the instruction set is not available or the number of threads is negative.
     explicit ShadingEvaluator(ShadingTable const& table, EvaluatorOptions const& options = {});
     ~ShadingEvaluator();
-    ShadingEvaluator(ShadingEvaluator&&) noexcept;
-    ShadingEvaluator& operator=(ShadingEvaluator&&) noexcept;
+    ShadingEvaluator(ShadingEvaluator&&) noexcept;             ///< leaves the other fit for assignment only
+    ShadingEvaluator& operator=(ShadingEvaluator&&) noexcept;  ///< likewise
 
     /// One frame. `controlPoints`: one per control vertex; they are not checked: a NaN or an infinite number spoils
     /// what depends on it, and nothing else. Every wanted output is written completely.

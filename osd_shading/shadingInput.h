@@ -13,7 +13,7 @@ template <typename Real>
 struct FaceVaryingView {
     ArrayView<int>
         indices;  ///< per face corner: a value. With a TopologyRefiner: empty, channel i is the refiner's
-    PrimvarView<Real> values;
+    PrimvarView<Real> values;  ///< what the indices name, of any width
 };
 
 /// The numbers on a control mesh. Views over the caller's memory; only `positions` is needed.

@@ -61,27 +61,31 @@ enum class PositionKind {
     Refined  ///< of the last level's mesh; normals and weights stay limits
 };
 
+/// The normals that are subdivided.
 struct StartNormalOptions {
-    StartNormalKind kind = StartNormalKind::Uniform;
-    int level = kDefaultStartLevel;  ///< n: 0 to the last level
+    StartNormalKind kind = StartNormalKind::Uniform;  ///< which
+    int level = kDefaultStartLevel;                   ///< n: 0 to the last level
 };
 
+/// How they are subdivided.
 struct SubdividedNormalOptions {
-    NormalAveraging averaging = NormalAveraging::Linear;
-    int sphericalSteps = 3;  ///< steps of the spherical mean, 0 to 100
+    NormalAveraging averaging = NormalAveraging::Linear;  ///< tables hold Linear only
+    int sphericalSteps = 3;                               ///< steps of the spherical mean, 0 to 100
 };
 
+/// The blend weight b.
 struct BlendWeightOptions {
-    WeightScheme scheme = WeightScheme::OneRing;
-    SharpVertexWeight sharpVertices = SharpVertexWeight::Zero;
-    DartWeight darts = DartWeight::LikeSmooth;
-    int level = kDefaultStartLevel;  ///< w: 0 to the last level
-    double exponent = 1.0;           ///< p > 0: the blend takes b^p
+    WeightScheme scheme = WeightScheme::OneRing;                ///< seeds and refining
+    SharpVertexWeight sharpVertices = SharpVertexWeight::Zero;  ///< variants A, B, C
+    DartWeight darts = DartWeight::LikeSmooth;                  ///< where one sharp edge ends
+    int level = kDefaultStartLevel;                             ///< w: 0 to the last level
+    double exponent = 1.0;                                      ///< p > 0: the blend takes b^p
 };
 
+/// What is taken at the last level.
 struct LimitOptions {
-    PositionKind positions = PositionKind::Limit;
-    LimitNormalKind normals = LimitNormalKind::Limit;
+    PositionKind positions = PositionKind::Limit;      ///< of the result
+    LimitNormalKind normals = LimitNormalKind::Limit;  ///< N_L
 };
 
 /// How a run behaves; nothing here changes a number of the result.
@@ -95,12 +99,12 @@ struct ExecutionOptions {
 
 /// All options of the method; the defaults are [ZBK23]'s recommendation.
 struct ShadingOptions {
-    int level = 4;  ///< L: 0 to 15 (Catmull-Clark with faces other than quads: 1 to 15)
-    StartNormalOptions startNormals;
-    SubdividedNormalOptions subdividedNormals;
-    BlendWeightOptions weights;
-    LimitOptions limits;
-    ExecutionOptions execution;
+    int level = 4;                              ///< L: 0 to 15 (Catmull-Clark with faces other than quads: 1 to 15)
+    StartNormalOptions startNormals;            ///< what is subdivided, from which level
+    SubdividedNormalOptions subdividedNormals;  ///< how it is subdivided
+    BlendWeightOptions weights;                 ///< where and how far the blend leaves N_L
+    LimitOptions limits;                        ///< positions and N_L
+    ExecutionOptions execution;                 ///< threads, memory, progress
 };
 
 /// The defaults, variant B, at level `level`. [ZBK23]

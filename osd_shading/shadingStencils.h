@@ -26,15 +26,22 @@ namespace Far = OpenSubdiv::OPENSUBDIV_VERSION::Far;
 ///
 /// Composed in double and rounded once. A row may be empty: its sum is zero.
 struct StencilRows {
-    int numSources = 0;  ///< indices are 0 to numSources - 1, ascending in each row
-    std::vector<int> sizes, offsets, indices;
-    std::vector<float> weights;
-    std::vector<float> duWeights, dvWeights;  ///< as `weights`, for du and dv; empty where rows have none
+    int numSources = 0;            ///< indices are 0 to numSources - 1, ascending in each row
+    std::vector<int> sizes;        ///< per row: its number of entries
+    std::vector<int> offsets;      ///< per row: its first entry
+    std::vector<int> indices;      ///< per entry: which source
+    std::vector<float> weights;    ///< per entry: its weight; any sign
+    std::vector<float> duWeights;  ///< as `weights`, for du; empty where rows have none
+    std::vector<float> dvWeights;  ///< likewise for dv
 
+    /// Rows, which is what an evaluator writes.
     int NumRows() const { return static_cast<int>(sizes.size()); }
 
-    // What the templates of Osd::CpuEvaluator and Osd::OmpEvaluator ask of a stencil table: give them the address
-    // of this struct.
+    /// \name For OpenSubdiv's evaluators
+    /// @{
+
+    /// What the templates of Osd::CpuEvaluator and Osd::OmpEvaluator ask of a stencil table: give them the address
+    /// of this struct.
     int GetNumStencils() const { return NumRows(); }
     int GetNumControlVertices() const { return numSources; }
     std::vector<int> const& GetSizes() const { return sizes; }
@@ -43,6 +50,7 @@ struct StencilRows {
     std::vector<float> const& GetWeights() const { return weights; }
     std::vector<float> const& GetDuWeights() const { return duWeights; }
     std::vector<float> const& GetDvWeights() const { return dvWeights; }
+    /// @}
 };
 
 /// A copy as OpenSubdiv's own table, which the buffers of its GPU evaluators are made from
@@ -56,8 +64,9 @@ OSD_SHADING_API std::unique_ptr<Far::LimitStencilTable const> MakeFarLimitStenci
 struct FaceAverages {
     StartNormalKind weight = StartNormalKind::Uniform;  ///< Uniform, CornerArea or Angle
 
-    // Faces of a refined mesh; points are numbered as the rows of NormalStencils::points.
-    std::vector<int> faceSizes, faceVertices;
+    std::vector<int> faceSizes;     ///< of a refined mesh, per face: number of corners
+    std::vector<int> faceVertices;  ///< per corner of those faces: a point, numbered as the rows of
+                                    ///< NormalStencils::points
 
     std::vector<int> normals;  ///< per entry: which normal it is; ascending
     std::vector<int> offsets;  ///< per entry and one more: its first corner
@@ -80,7 +89,7 @@ struct NormalStencils {
     StencilRows frames;
     StencilRows points;              ///< control points to points of the level's mesh, without limit
     std::vector<int> pointVertices;  ///< per row of `points`: OpenSubdiv's vertex; ascending
-    FaceAverages averages;
+    FaceAverages averages;           ///< of the normals that `frames` doesn't give
 };
 
 /// The method as stencils: everything of a shaded mesh that does not depend on its positions.
@@ -113,6 +122,7 @@ struct ShadingStencils {
     /// evaluators must not be given rows without any index.
     StencilRows subdividedNormals;
 
+    /// (vertex, region) pairs of the last level.
     int NumValues() const { return static_cast<int>(blendWeights.size()); }
 };
 

@@ -31,7 +31,7 @@ enum class ValueOrder {
 
 /// Counts of a table.
 struct ShadingTableStats {
-    std::int64_t values = 0;
+    std::int64_t values = 0;          ///< (vertex, region) pairs
     std::int64_t faces = 0;           ///< without holes
     std::int64_t tiles = 0;           ///< control faces, or children of n-gons
     std::int64_t regularTiles = 0;    ///< of those, evaluated as one B-spline patch (in Loop: as one box spline)
@@ -42,7 +42,7 @@ struct ShadingTableStats {
     std::int64_t startNormals = 0;    ///< start normals that a frame computes
     std::size_t bytes = 0;            ///< of the whole table
     std::size_t dictionaryBytes = 0;  ///< of that: classes and matrices
-    double buildSeconds = 0;
+    double buildSeconds = 0;          ///< wall time of the build
 };
 
 /// Everything of a shaded mesh that does not depend on its positions: built once, evaluated for every frame.
@@ -69,14 +69,15 @@ public:
                           ValueOrder order = ValueOrder::Tiles);
 
     ShadingOptions const& Options() const;  ///< as resolved: start levels are never kDefaultStartLevel
-    ValueOrder Order() const;
-    int NumControlVertices() const;
-    int NumControlFaceCorners() const;
-    int NumValues() const;  ///< of what a frame writes: (vertex, region) pairs
-    int NumFaces() const;   ///< of the shaded mesh, without holes
-    int FaceSize() const;   ///< vertices of such a face: 4, or 3 in Loop
+    ValueOrder Order() const;               ///< as asked for when it was built
+    int NumControlVertices() const;         ///< points that a frame takes
+    int NumControlFaceCorners() const;      ///< normals that a frame takes, where the caller's are per face corner
+    int NumValues() const;                  ///< of what a frame writes: (vertex, region) pairs
+    int NumFaces() const;                   ///< of the shaded mesh, without holes
+    int FaceSize() const;                   ///< vertices of such a face: 4, or 3 in Loop
+    /// Bytes of the whole table; copies share them.
     std::size_t NumBytes() const { return Stats().bytes; }
-    ShadingTableStats const& Stats() const;
+    ShadingTableStats const& Stats() const;  ///< counts, found when it was built
 
     /// Index buffer: the value of each corner, FaceSize() per face, counter-clockwise, the faces of a tile
     /// together.

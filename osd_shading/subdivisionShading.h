@@ -44,11 +44,11 @@ ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, Shadin
 
 /// What the memory of a run depends on, besides level and precision: counts of the control mesh.
 struct MeshSize {
-    Sdc::SchemeType scheme = Sdc::SCHEME_CATMARK;
-    std::int64_t numVertices = 0;
-    std::int64_t numFaces = 0;
-    std::int64_t numFaceCorners = 0;
-    std::int64_t numCreases = 0;        ///< interior edges with a sharpness
+    Sdc::SchemeType scheme = Sdc::SCHEME_CATMARK;  ///< Catmull-Clark or Loop
+    std::int64_t numVertices = 0;                  ///< also isolated ones
+    std::int64_t numFaces = 0;                     ///< also holes
+    std::int64_t numFaceCorners = 0;               ///< the sum of the faces' sizes
+    std::int64_t numCreases = 0;                   ///< interior edges with a sharpness
     std::int64_t numNgonTerms = 0;      ///< squares of the sizes of n-gons, where fields start at level 0
     std::int64_t numFaceVarying = 0;    ///< face-varying channels
     std::int64_t faceVaryingWidth = 0;  ///< numbers per value, over all of them
