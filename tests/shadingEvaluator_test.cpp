@@ -434,7 +434,10 @@ TEST(ShadingEvaluator, TangentsAreTheDerivativesAlongATilesColumnsAndRows) {
         for (Vec3<float> const& p : frame.positions) points.push_back({double{p.x}, double{p.y}, double{p.z}});
         int numCompared = 0;
         double worst = 0;
-        for (auto const& [side, grid] : GridsOf(c, table)) {
+        for (auto const& tile : GridsOf(c, table)) {
+            // clang 14 lets no lambda have a structured binding.
+            auto const& side = tile.first;
+            auto const& grid = tile.second;
             auto const along = [&](int row, int column, int rowStep, int columnStep,
                                    std::vector<Vec3<float>> const& t) {
                 auto const at = [&](int step) {
