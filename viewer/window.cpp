@@ -38,7 +38,9 @@ constexpr glm::ivec2 kDefaultSize(1280, 800);
 constexpr float kPickReach = 8, kDragStart = 3, kSplitReach = 6;  // units of the screen
 constexpr float kOrbitPerUnit = 0.4F, kZoomPerNotch = 0.88F;
 constexpr double kDoubleClick = 0.35, kPeriod = 3;  // seconds
-constexpr int kSettlingFrames = 3;                  // Dear ImGui needs some frames until its layout rests
+// Before any click: GLFW's clock begins at 0 when the program does, so that 0 would be a click just then.
+constexpr double kNoClick = -kDoubleClick;
+constexpr int kSettlingFrames = 3;  // Dear ImGui needs some frames until its layout rests
 
 std::string GlfwMessage() {
     char const* text = nullptr;
@@ -289,7 +291,7 @@ private:
     void click(int modifiers) {
         double const now = glfwGetTime();
         bool const isDouble = now - _lastClick < kDoubleClick;
-        _lastClick = isDouble ? 0 : now;
+        _lastClick = isDouble ? kNoClick : now;
         if (isDouble) {
             _bench.ExtendToChains();
         } else {
@@ -461,7 +463,7 @@ private:
 
     glm::vec2 _cursor{0}, _dragStart{0};
     Drag _drag = Drag::None;
-    double _lastClick = 0;
+    double _lastClick = kNoClick;
     bool _isHoverOld = false, _hasShownModel = false;
     Clock::time_point _lastMovement = Clock::now();
     std::string _reported;
