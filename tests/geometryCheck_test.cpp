@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "osd_shading/io/objReader.h"
+#include "tests/ioFiles.h"
 #include "tests/sampleSize.h"
 #include "tests/testHelpers.h"
 
@@ -42,20 +42,10 @@ std::string describe(GeometryCheck const& check) {
     return text;
 }
 
-std::vector<std::filesystem::path> objFilesIn(std::filesystem::path const& folder) {
-    std::vector<std::filesystem::path> files;
-    if (!std::filesystem::is_directory(folder)) return files;
-    for (auto const& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        if (entry.path().extension() == ".obj") files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 /// The model, or nothing where it has a face with a repeated vertex, which is refused.
-std::optional<io::Model> readUnlessRefused(std::filesystem::path const& file) {
+std::optional<io::Model> readUnlessRefused(std::string const& file) {
     try {
-        return io::ReadObj(file.string());
+        return io::ReadObj(file);
     } catch (Error const& error) {
         EXPECT_NE(std::string(error.what()).find("more than once"), std::string::npos) << error.what();
         return std::nullopt;
@@ -63,7 +53,7 @@ std::optional<io::Model> readUnlessRefused(std::filesystem::path const& file) {
 }
 
 /// Every level of a model that has limits, both schemes where they apply.
-void checkModel(std::filesystem::path const& file, int lastLevel) {
+void checkModel(std::string const& file, int lastLevel) {
     std::optional<io::Model> const model = readUnlessRefused(file);
     if (!model) return;
     auto const allHave = [&](int size) {
@@ -91,13 +81,13 @@ void checkModel(std::filesystem::path const& file, int lastLevel) {
 }
 
 TEST(GeometryCheck, PositionsEqualOpenSubdivsOnEveryModelOfOurs) {
-    std::vector<std::filesystem::path> const files = objFilesIn(OSD_SHADING_MODELS);
+    std::vector<std::string> const files = ioFiles::OwnModels();
     ASSERT_FALSE(files.empty());
     for (auto const& file : files) checkModel(file, kLastLevel);
 }
 
 TEST(GeometryCheck, PositionsEqualOpenSubdivsOnEveryFurtherModel) {
-    std::vector<std::filesystem::path> const files = objFilesIn(OSD_SHADING_EXTRA_MODELS);
+    std::vector<std::string> const files = ioFiles::SharedModels();
     if (files.empty()) GTEST_SKIP() << "there are no further models in " << OSD_SHADING_EXTRA_MODELS;
     for (auto const& file : files) checkModel(file, kLastLevel);
 }
@@ -171,7 +161,7 @@ TEST(GeometryCheck, FloatResultsAgreeWithOpenSubdivInFloat) {
 }
 
 TEST(GeometryCheck, FloatResultsOfFurtherModelsAgreeWithOpenSubdivInDouble) {
-    std::vector<std::filesystem::path> const files = objFilesIn(OSD_SHADING_EXTRA_MODELS);
+    std::vector<std::string> const files = ioFiles::SharedModels();
     if (files.empty()) GTEST_SKIP() << "there are no further models in " << OSD_SHADING_EXTRA_MODELS;
     for (auto const& file : files) {
         std::optional<io::Model> const model = readUnlessRefused(file);

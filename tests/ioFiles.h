@@ -75,17 +75,29 @@ std::string ErrorOf(Call const& call) {
     return {};
 }
 
-/// All `.obj` files under the shared models' folder, sorted; none where it is absent.
-inline std::vector<std::string> SharedModels() {
+/// All `.obj` files under `folder`, sorted; none where it is absent.
+inline std::vector<std::string> ObjFilesIn(std::string const& folder) {
     std::vector<std::string> paths;
-#if defined(OSD_SHADING_EXTRA_MODELS)
     std::error_code absent;
-    for (auto const& entry : std::filesystem::recursive_directory_iterator(OSD_SHADING_EXTRA_MODELS, absent)) {
+    for (auto const& entry : std::filesystem::recursive_directory_iterator(folder, absent)) {
         if (entry.path().extension() == ".obj") paths.push_back(entry.path().string());
     }
     std::sort(paths.begin(), paths.end());
-#endif
     return paths;
+}
+
+#if defined(OSD_SHADING_MODELS)
+/// The models that the project ships.
+inline std::vector<std::string> OwnModels() { return ObjFilesIn(OSD_SHADING_MODELS); }
+#endif
+
+/// The shared models; none where their folder is absent.
+inline std::vector<std::string> SharedModels() {
+#if defined(OSD_SHADING_EXTRA_MODELS)
+    return ObjFilesIn(OSD_SHADING_EXTRA_MODELS);
+#else
+    return {};
+#endif
 }
 
 constexpr char kNoSharedModels[] = "the shared models are absent: set OSD_SHADING_EXTRA_MODELS to their folder";

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -70,10 +69,9 @@ TEST(ModelWriter, WritesEveryTagAndIndexAsTheReaderKnowsThem) {
 TEST(ModelWriter, WritesAllOurModelsSoThatTheyReadBackTheSame) {
     TemporaryFolder const folder;
     int numModels = 0;
-    for (auto const& entry : std::filesystem::directory_iterator(OSD_SHADING_MODELS)) {
-        if (entry.path().extension() != ".obj") continue;
-        SCOPED_TRACE(entry.path().string());
-        Model const model = ReadObj(entry.path().string());
+    for (std::string const& file : ioFiles::OwnModels()) {
+        SCOPED_TRACE(file);
+        Model const model = ReadObj(file);
         WriteModel(folder.File("model.obj"), model);
         ExpectSame(ReadObj(folder.File("model.obj")), model);
 

@@ -17,6 +17,7 @@
 
 #include "osd_shading/io/objReader.h"
 #include "osd_shading/subdivisionShading.h"
+#include "tests/ioFiles.h"
 
 namespace {
 
@@ -30,10 +31,9 @@ Model Load(std::string const& name) { return io::ReadObj(std::string(OSD_SHADING
 
 std::vector<std::string> Names() {
     std::vector<std::string> names;
-    for (auto const& entry : std::filesystem::directory_iterator(OSD_SHADING_MODELS)) {
-        if (entry.path().extension() == ".obj") names.push_back(entry.path().stem().string());
+    for (std::string const& file : ioFiles::OwnModels()) {
+        names.push_back(std::filesystem::path(file).stem().string());
     }
-    std::sort(names.begin(), names.end());
     return names;
 }
 

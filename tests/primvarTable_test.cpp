@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "osd_shading/io/objReader.h"
+#include "tests/ioFiles.h"
 #include "tests/sampleSize.h"
 #include "tests/testHelpers.h"
 
@@ -122,13 +122,11 @@ TEST(PrimvarTable, OfRandomMeshesWithAValuePerCornerGivesTheNumbersOfShadeSubdiv
 
 TEST(PrimvarTable, OfAllModelsWithUvsGivesTheNumbersOfShadeSubdivision) {
     int numModels = 0;
-    for (std::string const folder : {OSD_SHADING_MODELS, OSD_SHADING_EXTRA_MODELS}) {
-        if (!std::filesystem::is_directory(folder)) continue;
-        for (auto const& entry : std::filesystem::recursive_directory_iterator(folder)) {
-            if (entry.path().extension() != ".obj") continue;
+    for (auto const& files : {ioFiles::OwnModels(), ioFiles::SharedModels()}) {
+        for (std::string const& file : files) {
             io::Model model;
             try {
-                model = io::ReadObj(entry.path().string());
+                model = io::ReadObj(file);
             } catch (Error const&) {
                 continue;  // a face with a repeated vertex is refused
             }

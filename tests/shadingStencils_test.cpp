@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "osd_shading/blendedNormals.h"
 #include "osd_shading/composedRows.h"
 #include "osd_shading/io/objReader.h"
+#include "tests/ioFiles.h"
 #include "tests/sampleSize.h"
 #include "tests/testHelpers.h"
 
@@ -418,25 +418,15 @@ TEST(ShadingStencils, OfRandomMeshesGiveWhatShadeSubdivisionGives) {
     Report(counts);
 }
 
-std::vector<std::filesystem::path> ObjFilesIn(std::filesystem::path const& folder) {
-    std::vector<std::filesystem::path> files;
-    if (!std::filesystem::is_directory(folder)) return files;
-    for (auto const& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        if (entry.path().extension() == ".obj") files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 TEST(ShadingStencils, OfAllModelsGiveWhatShadeSubdivisionGives) {
-    std::vector<std::filesystem::path> files = ObjFilesIn(OSD_SHADING_MODELS);
-    std::vector<std::filesystem::path> const further = ObjFilesIn(OSD_SHADING_EXTRA_MODELS);
+    std::vector<std::string> files = ioFiles::OwnModels();
+    std::vector<std::string> const further = ioFiles::SharedModels();
     if (!IsSanitizerRun()) files.insert(files.end(), further.begin(), further.end());
     Counts counts;
-    for (std::filesystem::path const& file : files) {
+    for (std::string const& file : files) {
         io::Model model;
         try {
-            model = io::ReadObj(file.string());
+            model = io::ReadObj(file);
         } catch (Error const&) {
             continue;  // a face with a repeated vertex is refused
         }

@@ -107,36 +107,27 @@ int LastLevel(io::Model const& model) {
     return level;
 }
 
-void ExpectAgreementOnAll(std::vector<std::string> const& files) {
-    for (std::string const& file : files) {
-        for (Case const& c : CasesOf(file)) {
-            for (int level = c.firstLevel; level <= LastLevel(c.model); ++level) {
-                ExpectAgreement(c, PaperPreset(level), "paper");
-                if (level == 3) ExpectAgreement(c, SmoothPreset(level), "smooth");
-            }
+void ExpectAgreementOnAllLevels(std::vector<Case> const& cases) {
+    for (Case const& c : cases) {
+        for (int level = c.firstLevel; level <= LastLevel(c.model); ++level) {
+            ExpectAgreement(c, PaperPreset(level), "paper");
+            if (level == 3) ExpectAgreement(c, SmoothPreset(level), "smooth");
         }
     }
 }
 
-std::vector<std::string> OwnModels() {
-    std::vector<std::string> files;
-    for (auto const& entry : std::filesystem::directory_iterator(OSD_SHADING_MODELS)) {
-        if (entry.path().extension() == ".obj") files.push_back(entry.path().string());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 TEST(TableModels, OursAgreeWithTheOneShotPath) {
-    std::vector<std::string> const files = OwnModels();
-    for (std::string const& file : files) EXPECT_FALSE(CasesOf(file).empty()) << file;
-    ExpectAgreementOnAll(files);
+    for (std::string const& file : ioFiles::OwnModels()) {
+        std::vector<Case> const cases = CasesOf(file);
+        EXPECT_FALSE(cases.empty()) << file;
+        ExpectAgreementOnAllLevels(cases);
+    }
 }
 
 TEST(TableModels, SharedOnesAgreeWithTheOneShotPath) {
     std::vector<std::string> const files = ioFiles::SharedModels();
     if (files.empty()) GTEST_SKIP() << ioFiles::kNoSharedModels;
-    ExpectAgreementOnAll(files);
+    for (std::string const& file : files) ExpectAgreementOnAllLevels(CasesOf(file));
 }
 
 }  // namespace

@@ -512,13 +512,11 @@ TEST(Frames, StatsAloneBuildTheTable) {
 
 TEST(Check, PassesOnAllOurModelsInBothPrecisions) {
     int numModels = 0;
-    for (fs::directory_entry const& entry : fs::directory_iterator(OSD_SHADING_MODELS)) {
-        if (entry.path().extension() != ".obj") continue;
+    for (std::string const& file : ioFiles::OwnModels()) {
         ++numModels;
         for (char const* precision : {"float", "double"}) {
-            json const report =
-                ReportOf({entry.path().string(), "--level", "3", "--check", "--precision", precision});
-            EXPECT_EQ(report["zero_normals"], 0) << entry.path();
+            json const report = ReportOf({file, "--level", "3", "--check", "--precision", precision});
+            EXPECT_EQ(report["zero_normals"], 0) << file;
         }
     }
     EXPECT_GE(numModels, 18);
