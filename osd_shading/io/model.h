@@ -27,24 +27,30 @@ struct Model {
 
     std::vector<int> creaseVertices;  ///< 2 per crease entry; an edge may stand more than once: the highest counts
     std::vector<float> creaseSharpness;  ///< 0 to 10; 10 is infinite
-    std::vector<int> cornerVertices;
+    std::vector<int> cornerVertices;     ///< per corner entry; the highest counts likewise
     std::vector<float> cornerSharpness;  ///< as creaseSharpness
-    std::vector<int> holes;
+    std::vector<int> holes;              ///< faces
 
     std::vector<double> uvs;         ///< 2 per value
     std::vector<int> uvIndices;      ///< per face corner, -1 where a corner has none; empty when no corner has one
     std::vector<double> normals;     ///< 3 per value
     std::vector<int> normalIndices;  ///< as uvIndices
 
-    /// Options that the file's tags give; unset where it has none.
+    /// \name Options
+    /// @{
+
+    /// As the file's tags give it; unset where it has none.
     std::optional<Sdc::Options::VtxBoundaryInterpolation> boundary;
     std::optional<Sdc::Options::FVarLinearInterpolation> faceVarying;
     std::optional<Sdc::Options::CreasingMethod> creasing;
     std::optional<Sdc::Options::TriangleSubdivision> triangles;
+    /// @}
 
     std::vector<std::string> warnings;  ///< "file:line: text", each once
 
+    /// Also those that no face names.
     int NumVertices() const { return static_cast<int>(positions.size() / 3); }
+    /// Also holes.
     int NumFaces() const { return static_cast<int>(faceSizes.size()); }
 
     /// `rules`, with the options that the file's tags give in their place.

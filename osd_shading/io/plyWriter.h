@@ -10,13 +10,15 @@ namespace osd_shading {
 inline namespace v1 {
 namespace io {
 
+/// The two forms of PLY.
 enum class PlyFormat {
     Binary,  ///< in the machine's byte order, which the header names (default)
-    Ascii
+    Ascii    ///< text
 };
 
+/// How a PLY file is written.
 struct PlyOptions {
-    PlyFormat format = PlyFormat::Binary;
+    PlyFormat format = PlyFormat::Binary;  ///< binary or text
 };
 
 /// Writes `result` as PLY: a vertex for each (vertex, region) value, in their order.
