@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "osd_shading/limitFrames.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -81,7 +82,7 @@ Vec3<Real> normalOfCorner(Far::TopologyLevel const& level, std::vector<Vec3<Real
 
 struct ChunkCounts {
     std::vector<int> missing;
-    std::int64_t numFallbacks = 0;
+    std::int64_t numFallbacks = 0, numAverages = 0;
 };
 
 template <typename Real>
@@ -89,6 +90,7 @@ void gather(std::vector<ChunkCounts> const& chunks, LimitNormals<Real>& result) 
     for (ChunkCounts const& chunk : chunks) {
         result.missing.insert(result.missing.end(), chunk.missing.begin(), chunk.missing.end());
         result.numFallbacks += chunk.numFallbacks;
+        result.numAverages += chunk.numAverages;
     }
 }
 
@@ -113,10 +115,12 @@ LimitNormals<Real> ComputeLimitNormals(LimitStep<Real> const& step, std::vector<
             VertexKind const kind = regions.Kind(v);
 
             // Smooth vertices and darts: their ring, as OpenSubdiv orders it.
+            bool hasPlane = true;
             if (kind <= VertexKind::Dart) {
-                RingView const whole = step.Ring(v);
+                LimitMask<Real> const& mask = step.RingMask(v);
                 Vec3<Real>& normal = result.normals[static_cast<std::size_t>(regions.FirstValue(v))];
-                normal = normalOfTangents(points, v, whole.vertices, step.RingMask(whole));
+                hasPlane = mask.hasTangents;
+                if (hasPlane) normal = normalOfTangents(points, v, step.Ring(v).vertices, mask);
                 if (!IsZero(normal)) continue;
             }
 
@@ -125,16 +129,18 @@ LimitNormals<Real> ComputeLimitNormals(LimitStep<Real> const& step, std::vector<
             for (RegionFan const& fan : fans) {
                 Vec3<Real>& normal = result.normals[static_cast<std::size_t>(fan.value)];
                 bool const isOneFace = fan.faces.size() == 1;
-                bool const isAverage = kind == VertexKind::Corner ? !isOneFace : !fan.isOrdered;
+                bool isAverage = kind == VertexKind::Corner ? !isOneFace : !fan.isOrdered || !hasPlane;
                 if (kind == VertexKind::Crease && fan.isOrdered) {
+                    LimitMask<Real> const& mask = step.Masks().Fan(static_cast<int>(fan.faces.size()));
+                    isAverage = !mask.hasTangents;
                     GatherFan(level, fan, isCatmark, neighbors);
-                    normal = normalOfTangents(points, v, neighbors.data(),
-                                              step.Masks().Fan(static_cast<int>(fan.faces.size())));
+                    if (!isAverage) normal = normalOfTangents(points, v, neighbors.data(), mask);
                 } else if (kind == VertexKind::Corner && isOneFace) {
                     normal = normalOfCorner(level, points, fan.faces[0], fan.corners[0]);
                 }
                 if (!IsZero(normal)) continue;
                 normal = AverageFaceNormal(level, points, fan);
+                counts.numAverages += isAverage;
                 if (!isAverage || IsZero(normal)) ++counts.numFallbacks;
                 if (IsZero(normal)) counts.missing.push_back(fan.value);
             }
@@ -184,14 +190,22 @@ void FindLimitFrames(LimitStep<Real> const& step, int vertex, std::vector<LimitF
         };
 
         std::size_t const numFaces = frame.fan.faces.size();
+        LimitMask<Real> const* mask = nullptr;
+        if (kind <= VertexKind::Dart) mask = &step.RingMask(vertex);
+        if (kind == VertexKind::Crease && frame.fan.isOrdered) mask = &step.Masks().Fan(static_cast<int>(numFaces));
         frame.isAverage = false;
-        if (kind <= VertexKind::Dart) {
-            RingView const ring = step.Ring(vertex);
-            addMask(ring.vertices, step.RingMask(ring));
-        } else if (kind == VertexKind::Crease && frame.fan.isOrdered) {
+        if (kind <= VertexKind::Dart && mask->hasTangents) {
+            // The faces in the order of the mask.
+            if (mask == step.Masks().Dart(static_cast<int>(numFaces))) {
+                auto const start = FindDartStart(level, vertex);
+                std::rotate(frame.fan.faces.begin(), frame.fan.faces.begin() + start, frame.fan.faces.end());
+                std::rotate(frame.fan.corners.begin(), frame.fan.corners.begin() + start, frame.fan.corners.end());
+            }
+            addMask(step.Ring(vertex).vertices, *mask);
+        } else if (kind == VertexKind::Crease && mask != nullptr && mask->hasTangents) {
             std::vector<int> neighbors;
             GatherFan(level, frame.fan, step.Topology().IsCatmark(), neighbors);
-            addMask(neighbors.data(), step.Masks().Fan(static_cast<int>(numFaces)));
+            addMask(neighbors.data(), *mask);
         } else if (kind == VertexKind::Corner && numFaces == 1) {
             Far::ConstIndexArray const vertices = level.GetFaceVertices(frame.fan.faces[0]);
             int const size = vertices.size(), corner = frame.fan.corners[0];

@@ -18,14 +18,17 @@ struct LimitNormals {
     std::vector<Vec3<Real>> normals;  ///< unit length; zero for those in `missing`
     std::vector<int> missing;         ///< values that only N_S can give a normal; ascending
     std::int64_t numFallbacks = 0;    ///< values whose tangents were degenerate
+    std::int64_t numAverages = 0;     ///< values without tangent plane, as far as the masks know: averages of faces
 };
 
-/// One-sided limit normals by OpenSubdiv's tangent masks, over each region's own faces:
+/// One-sided limit normals by the step's tangent masks, over each region's own faces:
 ///
 ///     smooth, dart            the ring's mask
 ///     crease, boundary        the crease mask over the region
 ///     corner of one face      its two edges
 ///     corner of several       no limit normal exists: the region's uniform average of unit face normals
+///
+/// With exact masks that average also serves the crease fans, darts and rings that have no tangent plane.
 ///
 /// Degenerate tangents (|t1 x t2| <= eps s1 s2, s = sum |w| |p - v|) fall back to that average.
 ///

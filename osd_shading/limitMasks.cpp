@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "osd_shading/exactLimitMasks.h"
 #include "osd_shading/parallel.h"
 #include "osd_shading/vectorMath.h"
 
@@ -56,6 +57,27 @@ struct SdcMask {
     int numEdges = 0, numFaces = 0;
 };
 
+/// Fills in what follows from the weights.
+template <typename Real>
+void complete(LimitMask<Real>& mask) {
+    // A tangent's weights under the precision are rounding of a zero.
+    Real squares1 = 0, squares2 = 0;
+    auto const add = [&](typename LimitMask<Real>::Weights& w, bool isVertex) {
+        for (Real* const tangent : {&w.tangent1, &w.tangent2}) {
+            if (std::fabs(*tangent) < kVanishing<Real>) *tangent = 0;
+        }
+        if (isVertex) return;
+        squares1 += w.tangent1 * w.tangent1;
+        squares2 += w.tangent2 * w.tangent2;
+        mask.positions.push_back(w.position);
+    };
+    mask.positions.clear();
+    add(mask.vertex, true);
+    for (auto& w : mask.faces) add(w, false);
+    for (auto& w : mask.edges) add(w, false);
+    mask.tangentNorms = std::sqrt(squares1 * squares2);
+}
+
 template <typename Real>
 std::unique_ptr<LimitMask<Real>> computeMask(Sdc::SchemeType scheme, int numFaces, bool isRing) {
     FanNeighborhood const fan{isRing ? numFaces : numFaces + 1, numFaces};
@@ -66,10 +88,8 @@ std::unique_ptr<LimitMask<Real>> computeMask(Sdc::SchemeType scheme, int numFace
     } else {
         Sdc::Scheme<Sdc::SCHEME_LOOP>().ComputeVertexLimitMask(fan, position, tangent1, tangent2, rule);
     }
-    // A tangent's weights under the precision are rounding of a zero.
-    auto const rounded = [](Real w) { return std::fabs(w) < kVanishing<Real> ? Real(0) : w; };
     auto mask = std::make_unique<LimitMask<Real>>();
-    mask->vertex = {position.vertex, rounded(tangent1.vertex), rounded(tangent2.vertex)};
+    mask->vertex = {position.vertex, tangent1.vertex, tangent2.vertex};
     mask->edges.resize(static_cast<std::size_t>(fan.numEdges));
     mask->faces.resize(scheme == Sdc::SCHEME_CATMARK ? static_cast<std::size_t>(numFaces) : 0);
     auto const weight = [](std::vector<Real> const& weights, int count, std::size_t i) {
@@ -77,48 +97,88 @@ std::unique_ptr<LimitMask<Real>> computeMask(Sdc::SchemeType scheme, int numFace
     };
     for (std::size_t i = 0; i < mask->edges.size(); ++i) {
         mask->edges[i] = {weight(position.edges, position.numEdges, i),
-                          rounded(weight(tangent1.edges, tangent1.numEdges, i)),
-                          rounded(weight(tangent2.edges, tangent2.numEdges, i))};
+                          weight(tangent1.edges, tangent1.numEdges, i),
+                          weight(tangent2.edges, tangent2.numEdges, i)};
     }
     for (std::size_t i = 0; i < mask->faces.size(); ++i) {
         mask->faces[i] = {weight(position.faces, position.numFaces, i),
-                          rounded(weight(tangent1.faces, tangent1.numFaces, i)),
-                          rounded(weight(tangent2.faces, tangent2.numFaces, i))};
+                          weight(tangent1.faces, tangent1.numFaces, i),
+                          weight(tangent2.faces, tangent2.numFaces, i)};
     }
-    for (auto const& w : mask->faces) mask->positions.push_back(w.position);
-    for (auto const& w : mask->edges) mask->positions.push_back(w.position);
-    Real squares1 = 0, squares2 = 0;
-    for (auto const* weights : {&mask->edges, &mask->faces}) {
-        for (auto const& w : *weights) {
-            squares1 += w.tangent1 * w.tangent1;
-            squares2 += w.tangent2 * w.tangent2;
-        }
-    }
-    mask->tangentNorms = std::sqrt(squares1 * squares2);
+    complete(*mask);
     return mask;
+}
+
+/// Whether OpenSubdiv's mask is not the limit of its own rules. (A fan of one face is: its corner is planar.)
+bool needsExactMask(Sdc::SchemeType scheme, int numFaces, RingKind kind) {
+    switch (kind) {
+        case RingKind::Ring:
+            return numFaces == 2;
+        case RingKind::Dart:
+            return numFaces >= 2 && numFaces <= kLargestExactDart;
+        default:
+            return numFaces >= (scheme == Sdc::SCHEME_CATMARK ? 3 : 4);
+    }
+}
+
+/// Puts exact weights in the place of OpenSubdiv's; a fan keeps its position, which is exact.
+template <typename Real>
+void makeExact(LimitMask<Real>& mask, Sdc::SchemeType scheme, int numFaces, RingKind kind) {
+    // No larger fan has a tangent plane.
+    constexpr int kLargestFan = 8;
+    if (kind == RingKind::Fan && numFaces > kLargestFan) {
+        mask.hasTangents = false;
+        return;
+    }
+    ExactLimitMask const exact = FindExactLimitMask(scheme, numFaces, kind);
+    mask.hasTangents = exact.hasTangentPlane;
+    auto const set = [&](typename LimitMask<Real>::Weights& w, auto const& at) {
+        if (kind != RingKind::Fan) w.position = static_cast<Real>(at(exact.position));
+        if (!exact.hasTangentPlane) return;
+        w.tangent1 = static_cast<Real>(at(exact.tangent1));
+        w.tangent2 = static_cast<Real>(at(exact.tangent2));
+    };
+    using Weights = ExactLimitMask::Weights;
+    set(mask.vertex, [](Weights const& w) { return w.vertex; });
+    for (std::size_t i = 0; i < mask.edges.size(); ++i)
+        set(mask.edges[i], [i](Weights const& w) { return w.edges[i]; });
+    for (std::size_t i = 0; i < mask.faces.size(); ++i)
+        set(mask.faces[i], [i](Weights const& w) { return w.faces[i]; });
+    complete(mask);
 }
 
 template <typename Real>
 void provide(std::vector<std::unique_ptr<LimitMask<Real>>>& masks, Sdc::SchemeType scheme, int numFaces,
-             bool isRing) {
+             RingKind kind, bool isExact) {
     auto const i = static_cast<std::size_t>(numFaces);
     if (masks.size() <= i) masks.resize(i + 1);
-    if (!masks[i]) masks[i] = computeMask<Real>(scheme, numFaces, isRing);
+    if (masks[i]) return;
+    masks[i] = computeMask<Real>(scheme, numFaces, kind != RingKind::Fan);
+    if (isExact && needsExactMask(scheme, numFaces, kind)) makeExact(*masks[i], scheme, numFaces, kind);
 }
 
 }  // namespace
 
 template <typename Real>
-LimitMasks<Real>::LimitMasks(RefinedTopology const& topology, int levelIndex, CreaseRegions const& regions) {
+LimitMasks<Real>::LimitMasks(RefinedTopology const& topology, int levelIndex, CreaseRegions const& regions,
+                             LimitNormalKind limitKind) {
     Far::TopologyLevel const& level = topology.Level(levelIndex);
-    provide(_fans, topology.Scheme(), 1, false);
+    bool const isExact = limitKind == LimitNormalKind::Exact;
+    auto const need = [&](auto& masks, int numFaces, RingKind kind) {
+        provide(masks, topology.Scheme(), numFaces, kind, isExact);
+    };
+    need(_fans, 1, RingKind::Fan);
     std::vector<int> facesOfRegion;
     for (int v = 0; v < level.GetNumVertices(); ++v) {
         int const numFaces = level.GetVertexFaces(v).size();
         VertexKind const kind = regions.Kind(v);
         if (numFaces == 0 || kind == VertexKind::Corner) continue;
         if (kind != VertexKind::Crease) {
-            provide(_rings, topology.Scheme(), numFaces, true);
+            need(_rings, numFaces, RingKind::Ring);
+            if (isExact && kind == VertexKind::Dart &&
+                needsExactMask(topology.Scheme(), numFaces, RingKind::Dart)) {
+                need(_darts, numFaces, RingKind::Dart);
+            }
             continue;
         }
         facesOfRegion.assign(static_cast<std::size_t>(regions.NumVertexValues(v)), 0);
@@ -128,8 +188,17 @@ LimitMasks<Real>::LimitMasks(RefinedTopology const& topology, int levelIndex, Cr
             ++facesOfRegion[static_cast<std::size_t>(regions.CornerValue(faces[i], corners[i]) -
                                                      regions.FirstValue(v))];
         }
-        for (int const count : facesOfRegion) provide(_fans, topology.Scheme(), count, false);
+        for (int const count : facesOfRegion) need(_fans, count, RingKind::Fan);
     }
+}
+
+int FindDartStart(Far::TopologyLevel const& level, int vertex) {
+    Far::ConstIndexArray const faces = level.GetVertexFaces(vertex), edges = level.GetVertexEdges(vertex);
+    if (level.IsVertexNonManifold(vertex) || faces.size() != edges.size()) return -1;
+    for (int i = 0; i < edges.size(); ++i) {
+        if (IsSharpEdge(level, edges[i])) return i;
+    }
+    return -1;
 }
 
 void GatherFan(Far::TopologyLevel const& level, RegionFan const& fan, bool isCatmark, std::vector<int>& neighbors) {
@@ -175,13 +244,18 @@ void LimitStep<Real>::gatherRings(int numThreads) {
             }
             Far::ConstIndexArray const faces = _level->GetVertexFaces(v);
             Far::ConstLocalIndexArray const corners = _level->GetVertexFaceLocalIndices(v);
+            // An exact mask of a dart begins at its sharp edge.
+            int const numFaces = faces.size();
+            int const first = _regions->Kind(v) == VertexKind::Dart && _masks.Dart(numFaces) != nullptr
+                                  ? std::max(0, FindDartStart(*_level, v))
+                                  : 0;
             // As OpenSubdiv does, the second corner on counts as opposite in faces that are no quads (level 0).
             auto const ahead = [&](int i, int steps) {
-                Far::ConstIndexArray const vertices = _level->GetFaceVertices(faces[i]);
-                int const corner = corners[i] + steps;
+                int const local = first + i < numFaces ? first + i : first + i - numFaces;
+                Far::ConstIndexArray const vertices = _level->GetFaceVertices(faces[local]);
+                int const corner = corners[local] + steps;
                 return vertices[corner < vertices.size() ? corner : corner - vertices.size()];
             };
-            int const numFaces = faces.size();
             for (int i = 0; i < numFaces && _isCatmark; ++i) *ring++ = ahead(i, 2);
             for (int i = 0; i < numFaces; ++i) *ring++ = ahead(i, 1);
         }
@@ -203,7 +277,7 @@ void LimitStep<Real>::forEachVertexTerm(int vertex, Visit const& visit) const {
         // Both ends weigh the same; its face has no weight.
         weights = mask->positions.data() + mask->faces.size();
     } else {
-        mask = &RingMask(ring);
+        mask = &RingMask(vertex);
         weights = mask->positions.data();
     }
     for (int i = 0; i < ring.size; ++i) visit(ring.vertices[i], weights[i]);
@@ -211,11 +285,12 @@ void LimitStep<Real>::forEachVertexTerm(int vertex, Visit const& visit) const {
 }
 
 template <typename Real>
-LimitStep<Real>::LimitStep(RefinedTopology const& topology, int level, CreaseRegions const& regions, int numThreads)
+LimitStep<Real>::LimitStep(RefinedTopology const& topology, int level, CreaseRegions const& regions, int numThreads,
+                           LimitNormalKind kind)
     : _topology(&topology),
       _level(&topology.Level(level)),
       _regions(&regions),
-      _masks(topology, level, regions),
+      _masks(topology, level, regions, kind),
       _isCatmark(topology.IsCatmark()) {
     gatherRings(numThreads);
     int const numVertices = regions.NumVertices();

@@ -10,11 +10,12 @@
 
 #include "osd_shading/creaseRegions.h"
 #include "osd_shading/fieldRefiner.h"
+#include "osd_shading/shadingOptions.h"
 
 namespace osd_shading {
 inline namespace v1 {
 
-/// OpenSubdiv's limit masks for a fan of faces: the weights of position, first and second tangent.
+/// The limit masks of a fan of faces: the weights of position, first and second tangent.
 template <typename Real>
 struct LimitMask {
     struct Weights {
@@ -24,22 +25,33 @@ struct LimitMask {
     std::vector<Weights> edges;  ///< far ends of the fan's edges, counter-clockwise
     std::vector<Weights> faces;  ///< opposite vertices of its quads; empty in Loop
     Real tangentNorms = 0;       ///< product of the tangent masks' lengths, without the vertex
+    bool hasTangents = true;     ///< false: no tangent plane exists; their weights mean nothing
 
     std::vector<Real> positions;  ///< position weights alone, in the order of a RingView
 };
 
-/// The masks of every fan that a level holds: full rings, and fans between two sharp edges. [Sdc::Scheme]
+/// The masks of every fan that a level holds: full rings, and fans between two sharp edges. They are OpenSubdiv's
+/// [Sdc::Scheme]; with LimitNormalKind::Exact, where those are not the limit of its rules, exact ones.
 template <typename Real>
 class LimitMasks {
 public:
-    LimitMasks(RefinedTopology const& topology, int level, CreaseRegions const& regions);
+    LimitMasks(RefinedTopology const& topology, int level, CreaseRegions const& regions, LimitNormalKind kind);
 
     LimitMask<Real> const& Ring(int numFaces) const { return *_rings[static_cast<std::size_t>(numFaces)]; }
     LimitMask<Real> const& Fan(int numFaces) const { return *_fans[static_cast<std::size_t>(numFaces)]; }
+    /// Of a ring whose edge 0 is sharp; null: that of any ring.
+    LimitMask<Real> const* Dart(int numFaces) const {
+        auto const i = static_cast<std::size_t>(numFaces);
+        return i < _darts.size() ? _darts[i].get() : nullptr;
+    }
 
 private:
-    std::vector<std::unique_ptr<LimitMask<Real>>> _rings, _fans;
+    std::vector<std::unique_ptr<LimitMask<Real>>> _rings, _fans, _darts;
 };
+
+/// The face of a dart's ring that its sharp edge leads, as a number among the vertex's faces; -1 where these make
+/// no ring.
+int FindDartStart(Far::TopologyLevel const& level, int vertex);
 
 /// The neighbours of one vertex in the order in which masks sum them: vertices opposite in quads, then the far ends
 /// of edges.
@@ -56,7 +68,8 @@ template <typename Real>
 class LimitStep {
 public:
     /// All arguments must outlive the step.
-    LimitStep(RefinedTopology const& topology, int level, CreaseRegions const& regions, int numThreads);
+    LimitStep(RefinedTopology const& topology, int level, CreaseRegions const& regions, int numThreads,
+              LimitNormalKind kind = LimitNormalKind::Limit);
 
     /// Limit positions of all vertices.
     void ApplyToPoints(std::vector<Vec3<Real>> const& points, std::vector<Vec3<Real>>& limits,
@@ -83,8 +96,12 @@ public:
         return {_ringVertices.data() + _ringOffsets[v], static_cast<int>(_ringOffsets[v + 1] - _ringOffsets[v])};
     }
     /// The mask of a whole ring. REQUIRES: `vertex` is smooth or a dart, and not isolated.
-    LimitMask<Real> const& RingMask(RingView const& ring) const {
-        return _masks.Ring(_isCatmark ? ring.size / 2 : ring.size);
+    LimitMask<Real> const& RingMask(int vertex) const {
+        int const size = Ring(vertex).size, numFaces = _isCatmark ? size / 2 : size;
+        if (_regions->Kind(vertex) == VertexKind::Dart && FindDartStart(*_level, vertex) >= 0) {
+            if (LimitMask<Real> const* const dart = _masks.Dart(numFaces)) return *dart;
+        }
+        return _masks.Ring(numFaces);
     }
 
     LimitMasks<Real> const& Masks() const { return _masks; }

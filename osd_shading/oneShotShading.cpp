@@ -317,15 +317,15 @@ ShadingResult<Real> ShadeOnce(RefinedTopology const& topology, ShadingInput<Real
                                : std::min(options.startNormals.level, options.weights.level);
     FieldLevels<Real> const levels(topology, firstLevel, numThreads);
     CreaseRegions const& regions = levels.Regions(lastLevel);
-    LimitStep<Real> const limit(topology, lastLevel, regions, numThreads);
+    LimitStep<Real> const limit(topology, lastLevel, regions, numThreads, options.limits.normals);
     clock.End("masks and regions", 0.5);
 
     // Positions, and the normals of their limit.
     LevelPoints<Real> points = refinePoints(topology, levels, input.positions, options);
     LimitNormals<Real> limitNormals =
-        options.limits.normals == LimitNormalKind::Limit
-            ? ComputeLimitNormals(limit, points.last, numThreads)
-            : ComputeFaceAverageNormals(limit, points.last, FaceWeightOf(options.startNormals.kind), numThreads);
+        options.limits.normals == LimitNormalKind::FaceAverage
+            ? ComputeFaceAverageNormals(limit, points.last, FaceWeightOf(options.startNormals.kind), numThreads)
+            : ComputeLimitNormals(limit, points.last, numThreads);
     if (options.limits.positions == PositionKind::Limit) {
         limit.ApplyToPoints(points.last, result.positions, numThreads);
         points.last = {};
@@ -334,6 +334,7 @@ ShadingResult<Real> ShadeOnce(RefinedTopology const& topology, ShadingInput<Real
     }
     result.limitNormals.swap(limitNormals.normals);
     result.report.fallbackNormals = limitNormals.numFallbacks;
+    result.report.averagedNormals = limitNormals.numAverages;
     clock.End("positions and limit normals", 0.65);
 
     // Blend weights; then the subdivided normals where they count.

@@ -51,8 +51,10 @@ enum class WeightScheme {
 
 /// How N_L is found.
 enum class LimitNormalKind {
-    Limit,       ///< OpenSubdiv's limit tangent masks, over the region's own faces (default)
-    FaceAverage  ///< the start normals' rule at the last level (ZBK's tool)
+    Limit,        ///< OpenSubdiv's limit tangent masks, over the region's own faces (default)
+    FaceAverage,  ///< the start normals' rule at the last level (ZBK's tool)
+    Exact         ///< the limit of OpenSubdiv's rules also where its masks are not: darts, irregular creases and
+           ///< boundaries, interior vertices of valence 2. There, limits of positions, N_S and b are exact too
 };
 
 /// Which positions the result holds.

@@ -73,6 +73,8 @@ struct ShadingReport {
     std::int64_t zeroNormals = 0;                       ///< values whose N_B is zero
     std::int64_t fallbackNormals =
         0;  ///< values whose limit tangents were degenerate, or that only N_S gave a normal
+    std::int64_t averagedNormals =
+        0;  ///< values that have no tangent plane, whose N_L is an average of face normals
     std::int64_t opposedNormals = 0;  ///< values with b > 0 and N_L . N_S < 0
     double minSubdividedLength = -1;  ///< smallest |N_S| before normalising where b > 0; -1: b > 0 nowhere
     double meanAngle = 0;             ///< between N_L and N_B, mean over the values

@@ -376,7 +376,7 @@ ShadingStencils BuildShadingStencils(Far::TopologyRefiner const& refiner, Shadin
         resolved.weights.scheme == WeightScheme::One ? start : std::min(start, resolved.weights.level);
     FieldLevels<double> const levels(topology, firstLevel, numThreads);
     CreaseRegions const& regions = levels.Regions(resolved.level);
-    LimitStep<double> const limit(topology, resolved.level, regions, numThreads);
+    LimitStep<double> const limit(topology, resolved.level, regions, numThreads, resolved.limits.normals);
     stencils.faceValues = collectFaceValues(topology.Level(resolved.level), regions);
     clock.End("masks and regions", 0.2);
 

@@ -66,6 +66,7 @@ std::vector<Case> Cases() {
     add(shapes::RandomShape(73), [](ShadingOptions& o) {
         o.limits = {PositionKind::Refined, LimitNormalKind::FaceAverage};
     });
+    add(shapes::RandomShape(74), [](ShadingOptions& o) { o.limits.normals = LimitNormalKind::Exact; });
     add(shapes::MixedPolygons(), [](ShadingOptions& o) { o.startNormals = {StartNormalKind::User, 0}; });
     shapes::Random random(5);
     for (std::size_t i = 0; i < 3 * Index(cases.back().shape.NumVertices()); ++i) {

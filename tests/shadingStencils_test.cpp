@@ -289,6 +289,10 @@ std::vector<ShadingOptions> ManyOptions(int level, bool hasLimitsAtZero) {
     all.push_back(options);
 
     options = PaperPreset(level);
+    options.limits.normals = LimitNormalKind::Exact;
+    all.push_back(options);
+
+    options = PaperPreset(level);
     options.startNormals = {StartNormalKind::LimitSmoothed, lowest};
     options.weights.scheme = WeightScheme::Bilinear;
     options.weights.sharpVertices = SharpVertexWeight::Smooth;

@@ -80,6 +80,11 @@ std::vector<std::pair<std::string, ShadingOptions>> ManyOptions(int level, bool 
         o.limits.normals = LimitNormalKind::FaceAverage;
         o.startNormals.kind = StartNormalKind::Angle;
     });
+    add("exact", [](ShadingOptions& o) { o.limits.normals = LimitNormalKind::Exact; });
+    add("exact, variant A", [](ShadingOptions& o) {
+        o.limits.normals = LimitNormalKind::Exact;
+        o.weights.sharpVertices = SharpVertexWeight::Smooth;
+    });
     return all;
 }
 

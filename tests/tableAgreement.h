@@ -100,7 +100,8 @@ inline Reference ReferenceOf(ControlMesh const& mesh, std::vector<float> const& 
     RefinedTopology const topology(mesh, resolved.level);
     int const n = resolved.startNormals.level;
     FieldLevels<double> const levels(topology, n, 1);
-    LimitStep<double> const limit(topology, resolved.level, levels.Regions(resolved.level), 1);
+    LimitStep<double> const limit(topology, resolved.level, levels.Regions(resolved.level), 1,
+                                  resolved.limits.normals);
     StartNormals<double> start;
     if (resolved.startNormals.kind == StartNormalKind::User) {
         start = GatherUserNormals(topology, levels.Regions(0), input.vertexNormals, input.faceVaryingNormals);

@@ -48,8 +48,10 @@ inline constexpr OptionNames<NormalAveraging, 3> kAveragingNames = {
      {"renormalised", NormalAveraging::Renormalised},
      {"spherical", NormalAveraging::Spherical}}};
 
-inline constexpr OptionNames<LimitNormalKind, 2> kLimitNormalNames = {
-    {{"limit", LimitNormalKind::Limit}, {"face-average", LimitNormalKind::FaceAverage}}};
+inline constexpr OptionNames<LimitNormalKind, 3> kLimitNormalNames = {
+    {{"limit", LimitNormalKind::Limit},
+     {"face-average", LimitNormalKind::FaceAverage},
+     {"exact", LimitNormalKind::Exact}}};
 
 inline constexpr OptionNames<PositionKind, 2> kPositionNames = {
     {{"limit", PositionKind::Limit}, {"refined", PositionKind::Refined}}};

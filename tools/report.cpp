@@ -227,6 +227,7 @@ std::string TableText(CommandLine const& line, RunSummary const& run) {
     table.Add("zero normals", CountText(report.zeroNormals));
     if (report.zeroStartNormals > 0) table.Add("zero start normals", CountText(report.zeroStartNormals));
     table.Add("fallback normals", CountText(report.fallbackNormals));
+    table.Add("averaged normals", CountText(report.averagedNormals));
     table.Add("opposed normals", CountText(report.opposedNormals));
     table.Add("smallest |N_S|",
               report.minSubdividedLength < 0 ? "none" : Format("%.4g", report.minSubdividedLength));
@@ -277,6 +278,7 @@ std::string JsonText(CommandLine const& line, RunSummary const& run) {
     json["zero_start_normals"] = report.zeroStartNormals;
     json["zero_normals"] = report.zeroNormals;
     json["fallback_normals"] = report.fallbackNormals;
+    json["averaged_normals"] = report.averagedNormals;
     json["opposed_normals"] = report.opposedNormals;
     json["min_subdivided_length"] = report.minSubdividedLength < 0 ? Json() : Json(report.minSubdividedLength);
     json["mean_angle_deg"] = report.meanAngle;

@@ -148,7 +148,7 @@ MadeClass TileCompiler::makeDense(RegionLevels& levels, int tileLevel, int face,
     int const lastLevel = tileLevel + k, side = 1 << k;
     Far::TopologyLevel const& last = levels.Level(lastLevel);
     CreaseRegions const& regions = levels.Regions(lastLevel);
-    LimitStep<double> const limit(topology, lastLevel, regions, 1);
+    LimitStep<double> const limit(topology, lastLevel, regions, 1, _contents.normals);
     std::vector<FaceCorner> const grid = FindFaceGrid(topology, tileLevel, face, lastLevel);
     bool const hasNormals = _contents.hasSubdividedNormals;
     // Normals are refined as points are, where each vertex has just one.

@@ -20,7 +20,8 @@ constexpr std::size_t kMostKept = 4096;
 
 }  // namespace
 
-ExactNormal::ExactNormal(TileRing ring, SubdivisionRules const& rules, int k, GridPoint const& at)
+ExactNormal::ExactNormal(TileRing ring, SubdivisionRules const& rules, LimitNormalKind kind, int k,
+                         GridPoint const& at)
     : _vertices(ring.vertices), _rows(ring.vertices.size() * ring.vertices.size(), 0) {
     for (std::size_t i = 0; i < _vertices.size(); ++i) _rows[i * _vertices.size() + i] = 1;
 
@@ -67,7 +68,7 @@ ExactNormal::ExactNormal(TileRing ring, SubdivisionRules const& rules, int k, Gr
     _topology = std::make_unique<RefinedTopology>(ring.Mesh(rules), k);
     for (int level = 1; level <= k; ++level) refine(*_topology, level, {});
     _regions = std::make_unique<CreaseRegions>(*_topology, k, 1);
-    _step = std::make_unique<LimitStep<double>>(*_topology, k, *_regions, 1);
+    _step = std::make_unique<LimitStep<double>>(*_topology, k, *_regions, 1, kind);
     int const gridFace = isNgon ? _topology->Level(0).GetFaceChildFaces(ring.tileFace)[at.child] : ring.tileFace;
     int const side = 1 << (isNgon ? k - 1 : k);
     FaceCorner const corner =
@@ -206,8 +207,9 @@ Vec3<double> ExactNormals::Find(int tileIndex, int value, PointView<float> contr
     if (known) return known->Find(controlPoints);
     Tile const& tile = _data.tiles[index(tileIndex)];
     GridPoint const point = FindTilePoints(_data.dictionary, tile)[index(value - tile.firstValue)];
-    auto made =
-        std::make_unique<ExactNormal const>(findRing(tileIndex), _data.mesh.rules, _data.options.level, point);
+    ShadingOptions const& options = _data.options;
+    auto made = std::make_unique<ExactNormal const>(findRing(tileIndex), _data.mesh.rules, options.limits.normals,
+                                                    options.level, point);
     Vec3<double> const normal = made->Find(controlPoints);
     std::lock_guard<std::mutex> const lock(_mutex);
     if (_known.size() < kMostKept) _known.emplace(value, std::move(made));

@@ -21,7 +21,8 @@ namespace tables {
 class ExactNormal {
 public:
     /// `ring`: the faces round a tile's face, by vertices of the control mesh (`ring.vertices`).
-    ExactNormal(TileRing ring, SubdivisionRules const& rules, int level, GridPoint const& point);
+    ExactNormal(TileRing ring, SubdivisionRules const& rules, LimitNormalKind kind, int level,
+                GridPoint const& point);
 
     /// N_L; zero where no face round the value has an area.
     Vec3<double> Find(PointView<float> controlPoints) const;

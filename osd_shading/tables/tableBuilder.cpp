@@ -68,7 +68,8 @@ std::size_t countLocalPoints(TileDictionary const& dictionary, int tileClass, st
 std::vector<double> weightsOfLastLevel(RefinedTopology const& topology, ShadingOptions const& options) {
     int const numThreads = options.execution.numThreads;
     FieldLevels<double> const levels(topology, options.weights.level, numThreads);
-    LimitStep<double> const limit(topology, options.level, levels.Regions(options.level), numThreads);
+    LimitStep<double> const limit(topology, options.level, levels.Regions(options.level), numThreads,
+                                  options.limits.normals);
     return ComputeBlendWeights(options.weights, topology, levels, limit, numThreads);
 }
 

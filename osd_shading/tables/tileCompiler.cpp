@@ -174,7 +174,7 @@ void TileCompiler::countUses(RegionLevels& levels, int k, int q,
     };
     std::vector<Parent> parents;
     ClassMap parentOfKey;
-    bool const isLimit = isCatmark() && _contents.normals == LimitNormalKind::Limit;
+    bool const isLimit = isCatmark() && _contents.normals != LimitNormalKind::FaceAverage;
     int const numFaces = levels.Level(0).GetNumFaces();
     _counted = &levels;
     auto const keep = [&](int level, int face, Neighborhood&& neighborhood) {
@@ -222,7 +222,7 @@ std::vector<CompiledTile> TileCompiler::CompileAll(RegionLevels& levels, int k, 
 
 CompiledTile TileCompiler::compile(RegionLevels& levels, int level, int face, int k, int q,
                                    TileOwnership const& own) {
-    if (isCatmark() && _contents.normals == LimitNormalKind::Limit) {
+    if (isCatmark() && _contents.normals != LimitNormalKind::FaceAverage) {
         if (auto const sides = findSharpSides(levels, level, face, k)) {
             return compileSpline(levels, level, face, k, q, *sides, own);
         }
