@@ -188,12 +188,10 @@ void seedInverseLimit(BlendWeightOptions const& options, LimitStep<Real> const& 
     }
 }
 
-}  // namespace
-
+/// b of the last level before its limit. `limit`: the last level's, made here where it is null and needed.
 template <typename Real>
-std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
-                                      FieldLevels<Real> const& levels, LimitStep<Real> const& limit,
-                                      int numThreads) {
+std::vector<Real> refineWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
+                                FieldLevels<Real> const& levels, LimitStep<Real> const* limit, int numThreads) {
     auto const numValuesOf = [&](int level) { return static_cast<std::size_t>(levels.Regions(level).NumValues()); };
     int const lastLevel = topology.LastLevel();
     CreaseRegions const& last = levels.Regions(lastLevel);
@@ -230,8 +228,8 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
         if (options.scheme == WeightScheme::InverseLimit) {
             if (std::find(isNew.begin(), isNew.end(), 1) != isNew.end()) {
                 std::optional<LimitStep<Real>> own;
-                if (level != lastLevel) own.emplace(topology, level, here, numThreads);
-                seedInverseLimit(options, own ? *own : limit, eligible, weights);
+                if (level != lastLevel || limit == nullptr) own.emplace(topology, level, here, numThreads);
+                seedInverseLimit(options, own ? *own : *limit, eligible, weights);
             }
         } else {
             for (std::size_t value = 0; value < weights.size(); ++value) {
@@ -240,7 +238,23 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
         }
         parentEligible.swap(eligible);
     }
+    return weights;
+}
 
+}  // namespace
+
+template <typename Real>
+std::vector<Real> ComputeRefinedWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
+                                        FieldLevels<Real> const& levels, int numThreads) {
+    return refineWeights<Real>(options, topology, levels, nullptr, numThreads);
+}
+
+template <typename Real>
+std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
+                                      FieldLevels<Real> const& levels, LimitStep<Real> const& limit,
+                                      int numThreads) {
+    std::vector<Real> weights = refineWeights(options, topology, levels, &limit, numThreads);
+    if (options.scheme == WeightScheme::One) return weights;
     if (options.scheme != WeightScheme::Bilinear) {
         std::vector<Real> limits(weights.size());
         limit.Apply(weights, limits, {}, numThreads);
@@ -251,6 +265,8 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
 }
 
 #define OSD_SHADING_INSTANTIATE(Real)                                                                      \
+    template std::vector<Real> ComputeRefinedWeights(BlendWeightOptions const&, RefinedTopology const&,    \
+                                                     FieldLevels<Real> const&, int);                       \
     template std::vector<Real> ComputeBlendWeights(BlendWeightOptions const&, RefinedTopology const&,      \
                                                    FieldLevels<Real> const&, LimitStep<Real> const&, int); \
     template void SeedRings(BlendWeightOptions const&, Far::TopologyLevel const&, CreaseRegions const&,    \

@@ -30,6 +30,11 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
                                       FieldLevels<Real> const& levels, LimitStep<Real> const& limit,
                                       int numThreads);
 
+/// The same before the limit step, and as it is: b of each value of the last level's mesh.
+template <typename Real>
+std::vector<Real> ComputeRefinedWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
+                                        FieldLevels<Real> const& levels, int numThreads);
+
 /// Sets b = 1 on the rings of eligible vertices of a level, or of their regions.
 template <typename Real>
 void SeedRings(BlendWeightOptions const& options, Far::TopologyLevel const& level, CreaseRegions const& regions,

@@ -170,8 +170,8 @@ ExactLimitMask FindExactLimitMask(Sdc::SchemeType scheme, int numFaces, RingKind
     bool const isFan = kind == RingKind::Fan;
     Eigen::VectorXd evenTangent, oddTangent;
     if (isFan) {
-        // Odd: the crease's own direction; with 4 faces (Loop: 6) an odd cross mode has its eigenvalue too, to which
-        // it is chained, so that it outgrows that mode by a factor of the level.
+        // Odd: the crease's own direction; with 4 faces (Loop: 6) an odd cross mode has its eigenvalue too, to
+        // which it is chained, so that it outgrows that mode by a factor of the level.
         bool const isLargest = odd.values[0] < 0.5 + kMargin;
         mask.hasTangentPlane = isLargest && even.values[1] > otherEven + kMargin;
         oddTangent = Eigen::VectorXd::Zero(around.Size());

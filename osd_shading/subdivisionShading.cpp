@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "osd_shading/inputChecks.h"
 #include "osd_shading/oneShotShading.h"
 
 namespace osd_shading {
@@ -14,23 +15,6 @@ inline namespace v1 {
 namespace {
 
 [[noreturn]] void fail(std::string const& text) { throw InvalidControlMesh(text); }
-
-template <typename Real>
-void checkPoints(PointView<Real> const& view, std::size_t count, char const* name, char const* element) {
-    std::string const what = name;
-    if (view.size() != count) {
-        fail(what + " has " + std::to_string(view.size()) + " elements; the mesh needs " + std::to_string(count) +
-             ", one per " + element);
-    }
-    if (view.size() > 0 && view.data() == nullptr) fail(what + ": its pointer is null");
-    if (view.stride() < 3) fail(what + ": its stride is " + std::to_string(view.stride()) + "; give 3 or more");
-    for (std::size_t i = 0; i < count; ++i) {
-        Vec3<Real> const p = view[i];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-            fail(what + ": " + element + " " + std::to_string(i) + " is not finite");
-        }
-    }
-}
 
 template <typename Real>
 void checkPrimvar(PrimvarView<Real> const& view, std::string const& name) {
@@ -47,15 +31,7 @@ void checkPrimvar(PrimvarView<Real> const& view, std::string const& name) {
 template <typename Real>
 void checkInput(ShadingInput<Real> const& input, std::size_t numVertices, std::size_t numFaceCorners,
                 ShadingOptions const& options) {
-    if (options.startNormals.kind == StartNormalKind::User) {
-        bool const perVertex = !input.vertexNormals.empty(), perCorner = !input.faceVaryingNormals.empty();
-        if (perVertex == perCorner) {
-            fail(perVertex ? "both vertexNormals and faceVaryingNormals are given; give one"
-                           : "user start normals need vertexNormals or faceVaryingNormals; both are empty");
-        }
-        if (perVertex) checkPoints(input.vertexNormals, numVertices, "vertexNormals", "vertex");
-        if (perCorner) checkPoints(input.faceVaryingNormals, numFaceCorners, "faceVaryingNormals", "face corner");
-    }
+    if (options.startNormals.kind == StartNormalKind::User) CheckUserNormals(input, numVertices, numFaceCorners);
     for (std::size_t i = 0; i < input.vertexData.size(); ++i) {
         std::string const name = "vertexData " + std::to_string(i);
         checkPrimvar(input.vertexData[i], name);
@@ -135,7 +111,7 @@ ShadingResult<Real> ShadeSubdivision(ControlMesh const& mesh, ShadingInput<Real>
     StageClock clock(options.execution.progress);
     // Before anything is sized by it: a number of vertices without their points is a mistake.
     if (mesh.numVertices > 0) {
-        checkPoints(input.positions, static_cast<std::size_t>(mesh.numVertices), "positions", "vertex");
+        CheckPoints(input.positions, static_cast<std::size_t>(mesh.numVertices), "positions", "vertex");
     }
     ValidateControlMesh(mesh);
     ShadingOptions const resolved = ResolveOptions(options, mesh);
@@ -184,7 +160,7 @@ ShadingResult<Real> ShadeSubdivision(Far::TopologyRefiner const& refiner, Shadin
     Far::TopologyLevel const base = refiner.GetLevel(0);
     ShadingOptions const resolved = ResolveOptions(options, refiner);
     auto const numFaceCorners = static_cast<std::size_t>(base.GetNumFaceVertices());
-    checkPoints(input.positions, static_cast<std::size_t>(base.GetNumVertices()), "positions", "vertex");
+    CheckPoints(input.positions, static_cast<std::size_t>(base.GetNumVertices()), "positions", "vertex");
     checkInput(input, static_cast<std::size_t>(base.GetNumVertices()), numFaceCorners, resolved);
     for (std::size_t i = 0; i < input.faceVaryingData.size(); ++i) {
         FaceVaryingView<Real> const& data = input.faceVaryingData[i];

@@ -136,8 +136,8 @@ std::vector<Case> AllCases() {
 }
 
 TEST(ExactLimitMasks, ADartOfARegularMeshHasThePositionWorkedByHand) {
-    // By the matrix of the ring of a Loop dart of valence 6, whose left eigenvector of eigenvalue 1 is, over the sum:
-    // vertex 6 a, edges as they are refined among themselves; checked by its own refinement.
+    // By the matrix of the ring of a Loop dart of valence 6, whose left eigenvector of eigenvalue 1 is, over the
+    // sum: vertex 6 a, edges as they are refined among themselves; checked by its own refinement.
     ExactLimitMask const mask = FindExactLimitMask(Sdc::SCHEME_LOOP, 6, RingKind::Dart);
     // Against l = l A: the entry of the vertex is 5/8 l_0 + 3/8 (five edges) + 1/2 (the sharp one).
     double const smooth = mask.position.edges[1] + mask.position.edges[2] + mask.position.edges[3] +
@@ -160,7 +160,8 @@ TEST(ExactLimitMasks, PositionsAreWhereOpenSubdivsRulesLead) {
         ExactLimitMask const mask = FindExactLimitMask(shape.rules.scheme, c.numFaces, c.kind);
         std::vector<Vec3<double>> const points = PointsOf<double>(shape);
         Vec3<double> limit = mask.position.vertex * points[0];
-        for (std::size_t i = 0; i < mask.position.edges.size(); ++i) limit += mask.position.edges[i] * points[1 + i];
+        for (std::size_t i = 0; i < mask.position.edges.size(); ++i)
+            limit += mask.position.edges[i] * points[1 + i];
         for (std::size_t i = 0; i < mask.position.faces.size(); ++i) {
             limit += mask.position.faces[i] * points[1 + mask.position.edges.size() + i];
         }
@@ -211,8 +212,10 @@ TEST(ExactLimitMasks, ALimitStepIsOpenSubdivsWhereItsMasksAreExact) {
         CreaseRegions const regions(topology, 1, 1);
         std::vector<Vec3<double>> const points =
             RefinePoints(topology.RecordMasks<double>(1), PointsOf<double>(shape), 1);
-        LimitStep<double> const masks(topology, 1, regions, 1), exact(topology, 1, regions, 1, LimitNormalKind::Exact);
-        auto const a = ComputeLimitNormals(masks, points, 1).normals, b = ComputeLimitNormals(exact, points, 1).normals;
+        LimitStep<double> const masks(topology, 1, regions, 1),
+            exact(topology, 1, regions, 1, LimitNormalKind::Exact);
+        auto const a = ComputeLimitNormals(masks, points, 1).normals,
+                   b = ComputeLimitNormals(exact, points, 1).normals;
         for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(Length(a[i] - b[i]), 0);
     }
 }

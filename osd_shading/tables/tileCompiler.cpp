@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "osd_shading/tables/sharpSides.h"
+
 namespace osd_shading {
 inline namespace v1 {
 namespace tables {
@@ -182,7 +184,7 @@ void TileCompiler::countUses(RegionLevels& levels, int k, int q,
     };
     for (int f = 0; f < numFaces; ++f) {
         tell(kCounting * f / numFaces);
-        if (isLimit && findSharpSides(levels, 0, f, k)) continue;
+        if (isLimit && FindSharpSides(levels, 0, f, k)) continue;
         TileOwnership const own = ownershipOf(f);
         Neighborhood neighborhood = identify(levels, 0, f, k, q, own);
         if (k == kLargestDense) {
@@ -198,7 +200,7 @@ void TileCompiler::countUses(RegionLevels& levels, int k, int q,
     if (levels.Topology().LastLevel() < 1) return;
     for (Parent const& parent : parents) {
         for (ChildFace const& child : findChildren(levels, 0, parent.face, parent.rotation, k, parent.own)) {
-            if (isLimit && findSharpSides(levels, 1, child.face, k - 1)) continue;
+            if (isLimit && FindSharpSides(levels, 1, child.face, k - 1)) continue;
             Neighborhood neighborhood = identify(levels, 1, child.face, k - 1, std::max(0, q - 1), child.own);
             _usesOfKey[neighborhood.key] += parent.uses;
             keep(1, child.face, std::move(neighborhood));
@@ -223,7 +225,7 @@ std::vector<CompiledTile> TileCompiler::CompileAll(RegionLevels& levels, int k, 
 CompiledTile TileCompiler::compile(RegionLevels& levels, int level, int face, int k, int q,
                                    TileOwnership const& own) {
     if (isCatmark() && _contents.normals != LimitNormalKind::FaceAverage) {
-        if (auto const sides = findSharpSides(levels, level, face, k)) {
+        if (auto const sides = FindSharpSides(levels, level, face, k)) {
             return compileSpline(levels, level, face, k, q, *sides, own);
         }
     }

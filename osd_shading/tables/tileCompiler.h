@@ -93,7 +93,6 @@ private:
     int addClass(MadeClass&& made);
 
     // Splines.
-    std::optional<unsigned> findSharpSides(RegionLevels& levels, int level, int face, int k) const;
     CompiledTile compileSpline(RegionLevels& levels, int level, int face, int k, int q, unsigned sharpSides,
                                TileOwnership const& own);
     MadeClass makeSpline(std::vector<FaceCorner> const& points, std::vector<FaceCorner> const& normals, int k,

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "osd_shading/surface/regionRing.h"
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "osd_shading/surface/patchBasis.h"
+#include "osd_shading/tables/faceGrid.h"
+#include "osd_shading/tables/sharpSides.h"
+
+namespace osd_shading {
+inline namespace v1 {
+namespace surface {
+
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+/// The region at corner `corner` of a face.
+RegionFan fanAt(RegionLevels& levels, int level, int face, int corner, std::vector<RegionFan>& fans) {
+    CreaseRegions const& regions = levels.Regions(level);
+    int const vertex = levels.Level(level).GetFaceVertices(face)[corner];
+    FindRegionFans(levels.Level(level), regions, vertex, fans);
+    return fans[index(regions.CornerValue(face, corner) - regions.FirstValue(vertex))];
+}
+
+RegularPatch quadPatch(RegionLevels& levels, int level, int face) {
+    RegularPatch patch;
+    std::optional<unsigned> const sides = tables::FindSharpSides(levels, level, face, 0);
+    if (!sides) return patch;
+    patch.points.resize(kQuadPoints);
+    std::vector<FaceCorner> const grid = tables::FindControlGrid(levels.Topology(), level, face, level, *sides);
+    for (std::size_t i = 0; i < grid.size(); ++i) patch.points[i].at = grid[i];
+    auto const isKnown = [&](int i) { return patch.points[index(i)].at.IsFound() || !patch.points[index(i)].terms.empty(); };
+    auto const mirror = [&](int target, int at, int inside) {
+        if (isKnown(target) || !isKnown(at) || !isKnown(inside)) return;
+        patch.points[index(target)].terms = {{at, 2}, {inside, -1}};
+        patch.order.push_back(target);
+    };
+    for (int i = 0; i < 4; ++i) {
+        if (*sides & 1u) mirror(i, 4 + i, 8 + i);
+        if (*sides & 4u) mirror(12 + i, 8 + i, 4 + i);
+    }
+    for (int i = 0; i < 4; ++i) {
+        if (*sides & 8u) mirror(4 * i, 4 * i + 1, 4 * i + 2);
+        if (*sides & 2u) mirror(4 * i + 3, 4 * i + 2, 4 * i + 1);
+    }
+    return patch;
+}
+
+/// The six lattice points round a triangle's corner, counter-clockwise, from the next corner on.
+constexpr LatticePoint kAround[6] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
+/// The direction of the edge from corner i to the next corner, in kAround.
+constexpr int kFirstDirection[3] = {0, 2, 4};
+
+int latticeIndex(LatticePoint const& p) {
+    for (int i = 0; i < kTrianglePoints; ++i) {
+        if (kTriangleLattice[i].column == p.column && kTriangleLattice[i].row == p.row) return i;
+    }
+    return -1;
+}
+
+RegularPatch trianglePatch(RegionLevels& levels, int level, int face) {
+    Far::TopologyLevel const& here = levels.Level(level);
+    CreaseRegions const& regions = levels.Regions(level);
+    RegularPatch patch;
+    patch.points.resize(kTrianglePoints);
+    std::vector<RegionFan> fans;
+    struct Phantom {
+        int point, at, along, inside;
+    };
+    std::vector<Phantom> phantoms;
+    for (int corner = 0; corner < 3; ++corner) {
+        int const vertex = here.GetFaceVertices(face)[corner];
+        VertexKind const kind = regions.Kind(vertex);
+        RegionFan const fan = fanAt(levels, level, face, corner, fans);
+        int const numFaces = static_cast<int>(fan.faces.size());
+        bool const isRegular = fan.isOrdered && (kind == VertexKind::Smooth ? fan.isClosed && numFaces == 6
+                                                                            : kind == VertexKind::Crease && numFaces == 3);
+        if (!isRegular) return {};
+        int const own = static_cast<int>(std::find(fan.faces.begin(), fan.faces.end(), face) - fan.faces.begin());
+        auto const around = [&](int direction) {
+            LatticePoint const center = kTriangleLattice[corner], step = kAround[(direction % 6 + 6) % 6];
+            return latticeIndex({center.column + step.column, center.row + step.row});
+        };
+        // Edge j of the fan: the one that leads its face j, and the last one's other edge.
+        int const numEdges = numFaces == 6 ? 6 : 4, first = kFirstDirection[corner] - own;
+        patch.points[index(corner)].at = {face, corner};
+        for (int j = 0; j < numEdges; ++j) {
+            int const last = numFaces - 1;
+            FaceCorner const at = j <= last ? FaceCorner{fan.faces[index(j)], (fan.corners[index(j)] + 1) % 3}
+                                            : FaceCorner{fan.faces[index(last)], (fan.corners[index(last)] + 2) % 3};
+            PatchPoint& point = patch.points[index(around(first + j))];
+            if (!point.at.IsFound()) point.at = at;
+        }
+        if (numFaces == 3) {
+            phantoms.push_back({around(first + 4), corner, around(first + 3), around(first + 2)});
+            phantoms.push_back({around(first + 5), corner, around(first), around(first + 1)});
+        }
+    }
+    for (Phantom const& phantom : phantoms) {
+        PatchPoint& point = patch.points[index(phantom.point)];
+        if (point.at.IsFound() || !point.terms.empty()) continue;
+        point.terms = {{phantom.at, 1}, {phantom.along, 1}, {phantom.inside, -1}};
+        patch.order.push_back(phantom.point);
+    }
+    return patch;
+}
+
+}  // namespace
+
+SubdivisionRules RulesOfRings(Sdc::SchemeType scheme) {
+    SubdivisionRules rules;
+    rules.scheme = scheme;
+    rules.boundary = Sdc::Options::VTX_BOUNDARY_EDGE_ONLY;
+    return rules;
+}
+
+TileRing FindRegionRing(RegionLevels& levels, int levelIndex, int face) {
+    Far::TopologyLevel const& level = levels.Level(levelIndex);
+    TileRing ring;
+    std::unordered_map<int, int> numberOfVertex;
+    std::unordered_set<int> isInRing;
+    auto const add = [&](int f, int firstCorner) {
+        if (!isInRing.insert(f).second) return;
+        Far::ConstIndexArray const vertices = level.GetFaceVertices(f);
+        int const size = vertices.size();
+        ring.faces.push_back(f);
+        ring.firstCorners.push_back(firstCorner);
+        ring.faceSizes.push_back(size);
+        for (int i = 0; i < size; ++i) {
+            int const vertex = vertices[(firstCorner + i) % size];
+            auto const [known, isNew] = numberOfVertex.emplace(vertex, ring.numVertices);
+            if (isNew) {
+                ++ring.numVertices;
+                ring.vertices.push_back(vertex);
+            }
+            ring.faceVertices.push_back(known->second);
+        }
+    };
+    add(face, 0);
+    Far::ConstIndexArray const corners = level.GetFaceVertices(face);
+    std::vector<RegionFan> fans;
+    for (int i = 0; i < corners.size(); ++i) {
+        RegionFan const fan = fanAt(levels, levelIndex, face, i, fans);
+        std::size_t const count = fan.faces.size();
+        auto const own =
+            static_cast<std::size_t>(std::find(fan.faces.begin(), fan.faces.end(), face) - fan.faces.begin());
+        for (std::size_t k = 1; k < count; ++k) {
+            std::size_t const next = (own + k) % count;
+            add(fan.faces[next], fan.corners[next]);
+        }
+    }
+
+    // Sharp edges inside it.
+    std::vector<std::pair<int, std::pair<int, int>>> edges;
+    std::size_t offset = 0;
+    for (std::size_t f = 0; f < ring.faces.size(); ++f) {
+        Far::ConstIndexArray const faceEdges = level.GetFaceEdges(ring.faces[f]);
+        int const size = ring.faceSizes[f];
+        for (int i = 0; i < size; ++i) {
+            int const edge = faceEdges[(ring.firstCorners[f] + i) % size];
+            if (!IsSharpEdge(level, edge)) continue;
+            edges.push_back({edge, std::minmax(ring.faceVertices[offset + index(i)],
+                                               ring.faceVertices[offset + index((i + 1) % size)])});
+        }
+        offset += index(size);
+    }
+    std::stable_sort(edges.begin(), edges.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
+    std::vector<std::pair<int, int>> creases;
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+        bool const isSecond =
+            edges[i].first == edges[i - 1].first && (i < 2 || edges[i].first != edges[i - 2].first);
+        if (isSecond) creases.push_back(edges[i].second);
+    }
+    std::sort(creases.begin(), creases.end());
+    for (auto const& [a, b] : creases) {
+        ring.creaseVertices.insert(ring.creaseVertices.end(), {a, b});
+        ring.creaseSharpness.push_back(Sdc::Crease::SHARPNESS_INFINITE);
+    }
+    std::vector<int> sharpCorners;
+    for (int const v : corners) {
+        if (levels.Regions(levelIndex).Kind(v) == VertexKind::Corner) sharpCorners.push_back(numberOfVertex[v]);
+    }
+    std::sort(sharpCorners.begin(), sharpCorners.end());
+    ring.cornerVertices = sharpCorners;
+    ring.cornerSharpness.assign(sharpCorners.size(), Sdc::Crease::SHARPNESS_INFINITE);
+    return ring;
+}
+
+bool StaysAsItIs(RegionLevels& levels, int levelIndex, int face, int numLevels) {
+    Far::TopologyLevel const& level = levels.Level(levelIndex);
+    bool const isUniform =
+        levels.Topology().Refiner().GetSchemeOptions().GetCreasingMethod() == Sdc::Options::CREASE_UNIFORM;
+    auto const stays = [&](float sharpness) {
+        return !(sharpness > 0) || tables::StaysSharp(sharpness, numLevels, isUniform);
+    };
+    for (int const v : level.GetFaceVertices(face)) {
+        if (!stays(level.GetVertexSharpness(v))) return false;
+        for (int const edge : level.GetVertexEdges(v)) {
+            if (!stays(level.GetEdgeSharpness(edge))) return false;
+        }
+    }
+    return true;
+}
+
+RegularPatch FindRegularPatch(RegionLevels& levels, int level, int face) {
+    return levels.Topology().IsCatmark() ? quadPatch(levels, level, face) : trianglePatch(levels, level, face);
+}
+
+}  // namespace surface
+}  // namespace v1
+}  // namespace osd_shading
