@@ -37,9 +37,9 @@ template <typename Real>
 void CheckUserNormals(ShadingInput<Real> const& input, std::size_t numVertices, std::size_t numFaceCorners) {
     bool const perVertex = !input.vertexNormals.empty(), perCorner = !input.faceVaryingNormals.empty();
     if (perVertex == perCorner) {
-        throw InvalidControlMesh(perVertex
-                                     ? "both vertexNormals and faceVaryingNormals are given; give one"
-                                     : "user start normals need vertexNormals or faceVaryingNormals; both are empty");
+        throw InvalidControlMesh(
+            perVertex ? "both vertexNormals and faceVaryingNormals are given; give one"
+                      : "user start normals need vertexNormals or faceVaryingNormals; both are empty");
     }
     if (perVertex) CheckPoints(input.vertexNormals, numVertices, "vertexNormals", "vertex");
     if (perCorner) CheckPoints(input.faceVaryingNormals, numFaceCorners, "faceVaryingNormals", "face corner");

@@ -56,7 +56,8 @@ ShadingOptions resolve(ShadingOptions options, Far::TopologyRefiner const& refin
     options.execution.progress = nullptr;
     auto const fail = [](std::string const& text) { throw InvalidOptions("a limit surface " + text); };
     if (options.level > kMaxSurfaceLevel) {
-        fail("has a level of at most " + std::to_string(kMaxSurfaceLevel) + ", not " + std::to_string(options.level));
+        fail("has a level of at most " + std::to_string(kMaxSurfaceLevel) + ", not " +
+             std::to_string(options.level));
     }
     if (options.subdividedNormals.averaging != NormalAveraging::Linear) {
         fail("has linear averaging of normals only; use ShadeSubdivision for the others");
@@ -86,7 +87,8 @@ struct LimitSurface<Real>::Topology {
 
     mutable std::mutex mutex;
     mutable surface::LimitClasses limitClasses;
-    mutable std::unordered_map<std::vector<std::int32_t>, std::shared_ptr<surface::FaceClass const>, KeyHash> classes;
+    mutable std::unordered_map<std::vector<std::int32_t>, std::shared_ptr<surface::FaceClass const>, KeyHash>
+        classes;
 
     template <typename Source>
     Topology(Source const& source, ShadingOptions const& given)
@@ -212,8 +214,8 @@ SurfacePoint<Real> LimitSurface<Real>::Evaluate(int face, Real u, Real v, Surfac
 }
 
 template <typename Real>
-void LimitSurface<Real>::Evaluate(int face, ArrayView<SurfaceParameter<Real>> parameters, SurfacePoint<Real>* points,
-                                  SurfaceDerivatives derivatives) const {
+void LimitSurface<Real>::Evaluate(int face, ArrayView<SurfaceParameter<Real>> parameters,
+                                  SurfacePoint<Real>* points, SurfaceDerivatives derivatives) const {
     if (face < 0 || face >= NumFaces()) {
         throw InvalidOptions("face " + std::to_string(face) + " is evaluated; the mesh has " +
                              std::to_string(NumFaces()));

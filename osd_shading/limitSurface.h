@@ -31,9 +31,9 @@ inline ShadingOptions SurfacePreset() {
     return options;
 }
 
-/// A point of a face, as OpenSubdiv's Bfr parametrises faces: quads over [0, 1]^2 from vertex 0 to vertex 1 (u) and to
-/// the last vertex (v); triangles of Loop over u, v >= 0, u + v <= 1; n-gons of Catmull-Clark by their quads, laid out
-/// as Bfr::Parameterization does.
+/// A point of a face, as OpenSubdiv's Bfr parametrises faces: quads over [0, 1]^2 from vertex 0 to vertex 1 (u) and
+/// to the last vertex (v); triangles of Loop over u, v >= 0, u + v <= 1; n-gons of Catmull-Clark by their quads,
+/// laid out as Bfr::Parameterization does.
 template <typename Real>
 struct SurfaceParameter {
     Real u = 0;  ///< outside the face it is moved to its border; NaN counts as 0
@@ -63,28 +63,29 @@ struct SurfacePoint {
 
 /// Counts of a LimitSurface; they grow as it is used.
 struct LimitSurfaceStats {
-    std::int64_t builtFaces = 0;     ///< control faces that were evaluated
-    std::int64_t faceClasses = 0;    ///< different neighbourhoods among them
-    std::int64_t limitClasses = 0;   ///< different neighbourhoods further down
-    std::size_t bytes = 0;           ///< of the faces that were built
+    std::int64_t builtFaces = 0;    ///< control faces that were evaluated
+    std::int64_t faceClasses = 0;   ///< different neighbourhoods among them
+    std::int64_t limitClasses = 0;  ///< different neighbourhoods further down
+    std::size_t bytes = 0;          ///< of the faces that were built
 };
 
 /// The limit surface of a control mesh with its shading, at any point of any face.
 ///
-/// P, du and dv are those of OpenSubdiv's limit surface; b and N_S are the limit fields that uniform shading takes at
-/// the vertices of its last level, between these vertices too: continuous over faces where the surface is smooth, and
-/// one-sided at creases. At the points of level `options.level` all numbers are those of ShadeSubdivision.
+/// P, du and dv are those of OpenSubdiv's limit surface; b and N_S are the limit fields that uniform shading takes
+/// at the vertices of its last level, between these vertices too: continuous over faces where the surface is
+/// smooth, and one-sided at creases. At the points of level `options.level` all numbers are those of
+/// ShadeSubdivision.
 ///
 /// The level L is where weights stop being seeded, and what is still sharp there is infinitely sharp. Left to the
-/// library (the default) it is the largest of 1, the start levels, and the largest finite sharpness rounded up, but at
-/// most 6. Options that only a mesh has are refused: other than limit positions and linear averaging, N_L by face
-/// averages, and the schemes InverseLimit and Bilinear.
+/// library (the default) it is the largest of 1, the start levels, and the largest finite sharpness rounded up, but
+/// at most 6. Options that only a mesh has are refused: other than limit positions and linear averaging, N_L by
+/// face averages, and the schemes InverseLimit and Bilinear.
 ///
 /// A face is built when it is first evaluated, from the faces up to two (with start levels 0, by Chaikin's rule or
-/// ExtraordinaryOnly, up to four) rings round it; equal neighbourhoods share what does not depend on positions. Near
-/// an irregular vertex patches get smaller without end, by OpenSubdiv's own masks: nothing is approximated. At the
-/// vertex itself limits are those of `options.limits.normals`: with Limit, OpenSubdiv's masks, which jump from their
-/// surroundings at irregular crease and boundary vertices and darts; with Exact nothing jumps.
+/// ExtraordinaryOnly, up to four) rings round it; equal neighbourhoods share what does not depend on positions.
+/// Near an irregular vertex patches get smaller without end, by OpenSubdiv's own masks: nothing is approximated. At
+/// the vertex itself limits are those of `options.limits.normals`: with Limit, OpenSubdiv's masks, which jump from
+/// their surroundings at irregular crease and boundary vertices and darts; with Exact nothing jumps.
 ///
 /// Safe to use from any number of threads. Copies share everything.
 template <typename Real>

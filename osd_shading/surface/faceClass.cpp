@@ -17,8 +17,8 @@ namespace surface {
 
 namespace {
 
-/// How many levels below an irregular face its patches are kept; what is nearer to the vertex, 1 in 4^this of it, is
-/// refined when it is asked for.
+/// How many levels below an irregular face its patches are kept; what is nearer to the vertex, 1 in 4^this of it,
+/// is refined when it is asked for.
 constexpr int kKeptLevels = 4;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -37,8 +37,7 @@ public:
     std::unique_ptr<FaceClass> Compile() {
         _made->isCatmark = _topology.IsCatmark();
         findWeights();
-        bool const isNgon =
-            _topology.IsCatmark() && _topology.Level(0).GetFaceVertices(_mesh.tileFace).size() != 4;
+        bool const isNgon = _topology.IsCatmark() && _topology.Level(0).GetFaceVertices(_mesh.tileFace).size() != 4;
         if (isNgon) {
             Far::ConstIndexArray const children = _levels.Level(0).GetFaceChildFaces(_mesh.tileFace);
             std::vector<std::uint32_t> const roots = newNodes(children.size());
@@ -178,7 +177,8 @@ private:
                 for (std::size_t const i : lines) {
                     auto const row = index(needed.IndexOf(level, _firstLines[i].vertex));
                     for (std::size_t t = rows.offsets[row]; t < rows.offsets[row + 1]; ++t) {
-                        positions[i].emplace_back(needed.Level(0).elements[index(rows.sources[t])], rows.weights[t]);
+                        positions[i].emplace_back(needed.Level(0).elements[index(rows.sources[t])],
+                                                  rows.weights[t]);
                     }
                 }
             }
@@ -217,9 +217,8 @@ private:
     }
 
     void makeStart(int startLevel) {
-        _made->start.reset(new StartMesh{RefinedTopology(_mesh.Mesh(_options.rules), startLevel),
-                                         CreaseRegions(_topology, startLevel, 1),
-                                         {}});
+        _made->start.reset(new StartMesh{
+            RefinedTopology(_mesh.Mesh(_options.rules), startLevel), CreaseRegions(_topology, startLevel, 1), {}});
         for (int level = 1; level <= startLevel; ++level) {
             _made->start->masks.push_back(_made->start->topology.RecordMasks<double>(level));
         }
@@ -228,8 +227,8 @@ private:
     void makeCorners(int level, int face) {
         CreaseRegions const& regions = _levels.Regions(level);
         if (!_limit) {
-            _limit = std::make_unique<LimitStep<double>>(_topology, level, regions, 1,
-                                                         _options.shading.limits.normals);
+            _limit =
+                std::make_unique<LimitStep<double>>(_topology, level, regions, 1, _options.shading.limits.normals);
         }
         std::vector<FaceCorner> const grid = tables::FindFaceGrid(_topology, level, face, level);
         tables::TangentRows tangents(_levels, *_limit, level, grid);
@@ -278,7 +277,8 @@ private:
         Far::ConstIndexArray const faces = _levels.Level(level).GetVertexFaces(vertex);
         Far::ConstLocalIndexArray const corners = _levels.Level(level).GetVertexFaceLocalIndices(vertex);
         for (int i = 0; i < faces.size(); ++i) {
-            if (_levels.ValueAt(level, {faces[i], corners[i]}) == value) return lineOf(level, {faces[i], corners[i]});
+            if (_levels.ValueAt(level, {faces[i], corners[i]}) == value)
+                return lineOf(level, {faces[i], corners[i]});
         }
         assert(false);
         return 0;
@@ -317,6 +317,7 @@ private:
             FaceNode& leaf = _made->patches->nodes[node];
             leaf.kind = isDeep ? FaceNode::Kind::Deep : FaceNode::Kind::Patch;
             leaf.limitClass = isDeep ? &limitClass : nullptr;
+            leaf.phantoms = limitClass.phantoms;
             if (!isDeep) {
                 for (int row = 0; row < limitClass.rows.NumRows(); ++row) {
                     lines.push_back(addRow(limitClass.rows, row, lines));

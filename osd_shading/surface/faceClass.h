@@ -20,9 +20,10 @@ namespace surface {
 struct FaceNode {
     enum class Kind : std::uint8_t { Patch, Split, Deep };
     Kind kind = Kind::Patch;
-    bool hasWeight = false;    ///< b is not zero everywhere on it
-    std::uint32_t first = 0;   ///< Patch, Deep: its lines, in `indices`; Split: the first of its 4 children
-    std::int32_t corners = -1;  ///< Split, the uppermost irregular ones: the first of its corners
+    bool hasWeight = false;      ///< b is not zero everywhere on it
+    std::uint16_t phantoms = 0;  ///< Patch: of its class
+    std::uint32_t first = 0;     ///< Patch, Deep: its lines, in `indices`; Split: the first of its 4 children
+    std::int32_t corners = -1;   ///< Split, the uppermost irregular ones: the first of its corners
     LimitClass const* limitClass = nullptr;  ///< Deep
 };
 
@@ -58,7 +59,8 @@ struct FaceClass {
     bool isCatmark = true;
     std::shared_ptr<FacePatches> patches = std::make_shared<FacePatches>();
     tables::FlatRows positionRows;  ///< per first line, from the cut-out's vertices
-    tables::FlatRows normalRows;    ///< per first line, from the values `normalSources` of the start level; may be empty
+    tables::FlatRows
+        normalRows;  ///< per first line, from the values `normalSources` of the start level; may be empty
     std::vector<int> normalSources;
     LineRows rows;
     std::vector<double> weights;  ///< b per line, before any limit

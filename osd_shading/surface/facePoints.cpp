@@ -93,8 +93,8 @@ FacePoints<Real>::FacePoints(ShadingOptions const& options, FaceClass const& fac
     std::vector<Vec3<double>> control;
     for (int const v : cutOut.vertices) {
         Vec3<Real> const p = input.positions[index(v)];
-        control.push_back({double(p.x) - double(_origin.x), double(p.y) - double(_origin.y),
-                           double(p.z) - double(_origin.z)});
+        control.push_back(
+            {double(p.x) - double(_origin.x), double(p.y) - double(_origin.y), double(p.z) - double(_origin.z)});
     }
     std::size_t const numFirst = faceClass.NumFirstLines(), count = faceClass.NumLines();
     std::vector<double> lines(count * kLanes, 0);
@@ -114,12 +114,14 @@ FacePoints<Real>::FacePoints(ShadingOptions const& options, FaceClass const& fac
         auto const normalAt = [&](int i) -> Vec3<double> const& {
             return normals[index(faceClass.normalSources[index(i)])];
         };
-        for (std::size_t i = 0; i < numFirst; ++i) addRow(faceClass.normalRows, i, normalAt, &lines[i * kLanes + 3]);
+        for (std::size_t i = 0; i < numFirst; ++i)
+            addRow(faceClass.normalRows, i, normalAt, &lines[i * kLanes + 3]);
     }
     for (std::size_t i = 0; i < count; ++i) lines[i * kLanes + 6] = faceClass.weights[i];
     for (int row = 0; row < faceClass.rows.NumRows(); ++row) {
         double* const line = &lines[(numFirst + index(row)) * kLanes];
-        for (std::uint32_t t = faceClass.rows.offsets[index(row)]; t < faceClass.rows.offsets[index(row) + 1]; ++t) {
+        for (std::uint32_t t = faceClass.rows.offsets[index(row)]; t < faceClass.rows.offsets[index(row) + 1];
+             ++t) {
             double const* const source = &lines[std::size_t{faceClass.rows.sources[t]} * kLanes];
             for (int k = 0; k < 6; ++k) line[k] += faceClass.rows.weights[t] * source[k];
         }
@@ -200,7 +202,8 @@ void FacePoints<Real>::computeCorners(ShadingOptions const& options, FaceClass c
 template <typename Real>
 template <typename LineAt>
 Vec3<Real> FacePoints<Real>::normalOfDoubtfulTangents(LineAt const& lineAt, PatchBasis<Real> const& basis,
-                                                      Sums const& sums) const {
+                                                      Sums const& sums, std::uint16_t phantoms, Real u,
+                                                      Real v) const {
     Vec3<Real> const position{sums.v[0][0], sums.v[0][1], sums.v[0][2]};
     Real added1 = 0, added2 = 0;
     int const count = _isCatmark ? kQuadPoints : kTrianglePoints;
@@ -216,24 +219,55 @@ Vec3<Real> FacePoints<Real>::normalOfDoubtfulTangents(LineAt const& lineAt, Patc
         Vec3<Real> const normal = NormalizedSum(Cross(du, dv), Real(1));
         if (!IsZero(normal)) return normal;
     }
-    // The normal of the mesh's face under it.
-    constexpr int kQuad[4] = {5, 6, 10, 9}, kTriangle[3] = {0, 1, 2};
-    int const* const corners = _isCatmark ? kQuad : kTriangle;
-    Vec3<Real> area{};
+    // The average of the mesh's faces round the vertex, at one; of the face under the point elsewhere.
+    Vec3<Real> sum{};
     Real added = 0;
-    for (int i = 1; i + 1 < (_isCatmark ? 4 : 3); ++i) {
-        Vec3<Real> const a = pointAt(corners[i]) - pointAt(corners[0]),
-                         c = pointAt(corners[i + 1]) - pointAt(corners[0]);
-        area += Cross(a, c);
-        added += Length(a) * Length(c);
+    auto const addFace = [&](int const* corners, int size) {
+        Vec3<Real> area{};
+        Real sizes = 0;
+        for (int i = 0; i < size; ++i) {
+            if ((phantoms >> corners[i] & 1u) != 0) return;
+        }
+        for (int i = 1; i + 1 < size; ++i) {
+            Vec3<Real> const a = pointAt(corners[i]) - pointAt(corners[0]),
+                             c = pointAt(corners[i + 1]) - pointAt(corners[0]);
+            area += Cross(a, c);
+            sizes += Length(a) * Length(c);
+        }
+        Vec3<Real> const unit = NormalizedSum(area, sizes);
+        sum += unit;
+        added += Length(unit);
+    };
+    bool const isAtVertex = (u == 0 || u == 1) && (v == 0 || v == 1);
+    if (_isCatmark) {
+        int const firstRow = isAtVertex && v == 0 ? 0 : 1, lastRow = isAtVertex && v == 1 ? 2 : 1;
+        int const firstColumn = isAtVertex && u == 0 ? 0 : 1, lastColumn = isAtVertex && u == 1 ? 2 : 1;
+        for (int row = firstRow; row <= lastRow; ++row) {
+            for (int column = firstColumn; column <= lastColumn; ++column) {
+                int const at = 4 * row + column;
+                int const corners[4] = {at, at + 1, at + 5, at + 4};
+                addFace(corners, 4);
+            }
+        }
+    } else if (isAtVertex) {
+        // Of the six lattice points round each vertex.
+        constexpr int kRings[3][6] = {{1, 2, 3, 4, 5, 6}, {8, 9, 2, 0, 6, 7}, {9, 10, 11, 3, 0, 1}};
+        int const vertex = u == 1 ? 1 : v == 1 ? 2 : 0;
+        for (int i = 0; i < 6; ++i) {
+            int const corners[3] = {vertex, kRings[vertex][i], kRings[vertex][(i + 1) % 6]};
+            addFace(corners, 3);
+        }
+    } else {
+        int const corners[3] = {0, 1, 2};
+        addFace(corners, 3);
     }
-    return NormalizedSum(area, added);
+    return NormalizedSum(sum, added);
 }
 
 template <typename Real>
 template <typename LineAt>
-void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool hasWeight, Real u, Real v,
-                                     Real scale, bool hasSecond, Vec3<Real> const& origin,
+void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool hasWeight, std::uint16_t phantoms,
+                                     Real u, Real v, Real scale, bool hasSecond, Vec3<Real> const& origin,
                                      SurfacePoint<Real>& point) const {
     PatchBasis<Real> basis;
     int count = kTrianglePoints;
@@ -246,7 +280,7 @@ void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool
 
     // Sum the lines: positions alone where b is zero.
     Sums sums{};
-    auto const addTo = [&](Real (&sum)[kLanes], Real weight, Real const* line, int numLanes) {
+    auto const addTo = [&](Real(&sum)[kLanes], Real weight, Real const* line, int numLanes) {
         for (int k = 0; k < numLanes; ++k) sum[k] += weight * line[k];
     };
     if (!hasWeight) {
@@ -284,7 +318,7 @@ void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool
         point.limitNormal = (1 / crossLength) * cross;
     } else {
         crossLength = Length(cross);
-        point.limitNormal = normalOfDoubtfulTangents(lineAt, basis, sums);
+        point.limitNormal = normalOfDoubtfulTangents(lineAt, basis, sums, phantoms, u, v);
     }
     point.position = vectorAt(0, 0) + origin;
     point.du = scale * du;
@@ -360,7 +394,7 @@ void FacePoints<Real>::Evaluate(double exponent, int root, Real u, Real v, Real 
     }
     std::uint32_t const* const lines = &_patches->indices[node->first];
     auto const lineAt = [&](int i) { return _lines[lines[i]].v; };
-    evaluatePatch(exponent, lineAt, node->hasWeight, u, v, scale, hasSecond, _origin, point);
+    evaluatePatch(exponent, lineAt, node->hasWeight, node->phantoms, u, v, scale, hasSecond, _origin, point);
 }
 
 template <typename Real>
@@ -406,7 +440,8 @@ void FacePoints<Real>::evaluateDeep(double exponent, FaceNode const& node, std::
         here = child.limitClass;
     }
     auto const lineAt = [&](int i) { return lines[here->patch[index(i)]].v; };
-    evaluatePatch(exponent, lineAt, node.hasWeight, u, v, scale, hasSecond, at.position + _origin, point);
+    evaluatePatch(exponent, lineAt, node.hasWeight, here->phantoms, u, v, scale, hasSecond, at.position + _origin,
+                  point);
 }
 
 template <typename Real>

@@ -39,15 +39,18 @@ private:
         Real v[6][kLanes];
     };
 
-    void computeCorners(ShadingOptions const& options, FaceClass const& faceClass, std::vector<double> const& lines);
+    void computeCorners(ShadingOptions const& options, FaceClass const& faceClass,
+                        std::vector<double> const& lines);
     void evaluateDeep(double exponent, FaceNode const& node, std::uint32_t corners, Real u, Real v, Real scale,
                       bool hasSecond, SurfacePoint<Real>& point) const;
     /// `origin` is added to the position.
     template <typename LineAt>
-    void evaluatePatch(double exponent, LineAt const& lineAt, bool hasWeight, Real u, Real v, Real scale,
-                       bool hasSecond, Vec3<Real> const& origin, SurfacePoint<Real>& point) const;
+    void evaluatePatch(double exponent, LineAt const& lineAt, bool hasWeight, std::uint16_t phantoms, Real u,
+                       Real v, Real scale, bool hasSecond, Vec3<Real> const& origin,
+                       SurfacePoint<Real>& point) const;
     template <typename LineAt>
-    Vec3<Real> normalOfDoubtfulTangents(LineAt const& lineAt, PatchBasis<Real> const& basis, Sums const& sums) const;
+    Vec3<Real> normalOfDoubtfulTangents(LineAt const& lineAt, PatchBasis<Real> const& basis, Sums const& sums,
+                                        std::uint16_t phantoms, Real u, Real v) const;
 
     std::shared_ptr<FacePatches const> _patches;
     bool _isCatmark;

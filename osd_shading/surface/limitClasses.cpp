@@ -76,6 +76,7 @@ void LimitClasses::make(TileRing const& ring, Entry& entry) {
             }
             made.rows.EndRow();
             made.patch[index(phantom)] = static_cast<std::uint32_t>(made.NumLines() - 1);
+            made.phantoms = static_cast<std::uint16_t>(made.phantoms | 1u << phantom);
         }
         return;
     }

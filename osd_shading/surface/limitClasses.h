@@ -35,6 +35,7 @@ struct LimitClass {
     int numInputs = 0;
     LineRows rows;
     std::vector<std::uint32_t> patch;  ///< lines of its control points, where it is a regular patch
+    std::uint16_t phantoms = 0;        ///< bit i: its control point i is no point of the mesh
     struct Child {
         LimitClass const* limitClass = nullptr;
         std::vector<std::uint32_t> inputs;  ///< its inputs among the local lines
@@ -45,8 +46,8 @@ struct LimitClass {
     int NumLines() const { return numInputs + rows.NumRows(); }
 };
 
-/// Finds the classes of faces, or makes them. Irregular ones come round to themselves after some levels: so there are
-/// only as many as there are neighbourhoods.
+/// Finds the classes of faces, or makes them. Irregular ones come round to themselves after some levels: so there
+/// are only as many as there are neighbourhoods.
 class LimitClasses {
 public:
     explicit LimitClasses(Sdc::SchemeType scheme) : _scheme(scheme) {}

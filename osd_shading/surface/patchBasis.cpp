@@ -88,10 +88,10 @@ Quartic expanded(BarycentricTerm const (&terms)[Count], std::array<int, 3> const
 /// In the order of kTriangleLattice.
 std::array<Quartic, kTrianglePoints> const& boxSpline() {
     static std::array<Quartic, kTrianglePoints> const kPieces = {
-        expanded(kAtCorner, {0, 1, 2}),     expanded(kAtCorner, {1, 2, 0}),     expanded(kAtCorner, {2, 0, 1}),
-        expanded(kAcrossEdge, {0, 2, 1}),   expanded(kBeyondCorner, {0, 2, 1}), expanded(kBeyondCorner, {0, 1, 2}),
-        expanded(kAcrossEdge, {0, 1, 2}),   expanded(kBeyondCorner, {1, 0, 2}), expanded(kBeyondCorner, {1, 2, 0}),
-        expanded(kAcrossEdge, {1, 2, 0}),   expanded(kBeyondCorner, {2, 1, 0}), expanded(kBeyondCorner, {2, 0, 1})};
+        expanded(kAtCorner, {0, 1, 2}),   expanded(kAtCorner, {1, 2, 0}),     expanded(kAtCorner, {2, 0, 1}),
+        expanded(kAcrossEdge, {0, 2, 1}), expanded(kBeyondCorner, {0, 2, 1}), expanded(kBeyondCorner, {0, 1, 2}),
+        expanded(kAcrossEdge, {0, 1, 2}), expanded(kBeyondCorner, {1, 0, 2}), expanded(kBeyondCorner, {1, 2, 0}),
+        expanded(kAcrossEdge, {1, 2, 0}), expanded(kBeyondCorner, {2, 1, 0}), expanded(kBeyondCorner, {2, 0, 1})};
     return kPieces;
 }
 
@@ -155,8 +155,8 @@ void EvaluateTriangleBasis(Real u, Real v, bool hasSecond, PatchBasis<Real>& bas
     }
 }
 
-#define OSD_SHADING_INSTANTIATE(Real)                                        \
-    template void EvaluateQuadBasis(Real, Real, bool, PatchBasis<Real>&);    \
+#define OSD_SHADING_INSTANTIATE(Real)                                     \
+    template void EvaluateQuadBasis(Real, Real, bool, PatchBasis<Real>&); \
     template void EvaluateTriangleBasis(Real, Real, bool, PatchBasis<Real>&);
 OSD_SHADING_INSTANTIATE(float)
 OSD_SHADING_INSTANTIATE(double)

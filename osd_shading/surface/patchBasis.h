@@ -20,8 +20,8 @@ struct PatchBasis {
 template <typename Real>
 void EvaluateQuadBasis(Real u, Real v, bool hasSecond, PatchBasis<Real>& basis);
 
-/// The quartic box spline over the triangle u, v >= 0, u + v <= 1: 12 points of the lattice whose (0, 0), (1, 0) and
-/// (0, 1) are the triangle's vertices, in the order of kTriangleLattice.   [Loop87]
+/// The quartic box spline over the triangle u, v >= 0, u + v <= 1: 12 points of the lattice whose (0, 0), (1, 0)
+/// and (0, 1) are the triangle's vertices, in the order of kTriangleLattice.   [Loop87]
 template <typename Real>
 void EvaluateTriangleBasis(Real u, Real v, bool hasSecond, PatchBasis<Real>& basis);
 

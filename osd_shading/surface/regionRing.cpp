@@ -34,7 +34,9 @@ RegularPatch quadPatch(RegionLevels& levels, int level, int face) {
     patch.points.resize(kQuadPoints);
     std::vector<FaceCorner> const grid = tables::FindControlGrid(levels.Topology(), level, face, level, *sides);
     for (std::size_t i = 0; i < grid.size(); ++i) patch.points[i].at = grid[i];
-    auto const isKnown = [&](int i) { return patch.points[index(i)].at.IsFound() || !patch.points[index(i)].terms.empty(); };
+    auto const isKnown = [&](int i) {
+        return patch.points[index(i)].at.IsFound() || !patch.points[index(i)].terms.empty();
+    };
     auto const mirror = [&](int target, int at, int inside) {
         if (isKnown(target) || !isKnown(at) || !isKnown(inside)) return;
         patch.points[index(target)].terms = {{at, 2}, {inside, -1}};
@@ -78,8 +80,9 @@ RegularPatch trianglePatch(RegionLevels& levels, int level, int face) {
         VertexKind const kind = regions.Kind(vertex);
         RegionFan const fan = fanAt(levels, level, face, corner, fans);
         int const numFaces = static_cast<int>(fan.faces.size());
-        bool const isRegular = fan.isOrdered && (kind == VertexKind::Smooth ? fan.isClosed && numFaces == 6
-                                                                            : kind == VertexKind::Crease && numFaces == 3);
+        bool const isRegular =
+            fan.isOrdered && (kind == VertexKind::Smooth ? fan.isClosed && numFaces == 6
+                                                         : kind == VertexKind::Crease && numFaces == 3);
         if (!isRegular) return {};
         int const own = static_cast<int>(std::find(fan.faces.begin(), fan.faces.end(), face) - fan.faces.begin());
         auto const around = [&](int direction) {
@@ -91,8 +94,9 @@ RegularPatch trianglePatch(RegionLevels& levels, int level, int face) {
         patch.points[index(corner)].at = {face, corner};
         for (int j = 0; j < numEdges; ++j) {
             int const last = numFaces - 1;
-            FaceCorner const at = j <= last ? FaceCorner{fan.faces[index(j)], (fan.corners[index(j)] + 1) % 3}
-                                            : FaceCorner{fan.faces[index(last)], (fan.corners[index(last)] + 2) % 3};
+            FaceCorner const at = j <= last
+                                      ? FaceCorner{fan.faces[index(j)], (fan.corners[index(j)] + 1) % 3}
+                                      : FaceCorner{fan.faces[index(last)], (fan.corners[index(last)] + 2) % 3};
             PatchPoint& point = patch.points[index(around(first + j))];
             if (!point.at.IsFound()) point.at = at;
         }

@@ -16,8 +16,8 @@ using tables::RegionLevels;
 using tables::TileRing;
 
 /// A face with the faces of its own region at each of its vertices, as a mesh of its own in which what is sharp is
-/// infinitely sharp: all that the limit surface over the face depends on, this side of sharp edges. Its tile face is
-/// face 0. What lies across a sharp edge, a non-manifold one too, is not there.
+/// infinitely sharp: all that the limit surface over the face depends on, this side of sharp edges. Its tile face
+/// is face 0. What lies across a sharp edge, a non-manifold one too, is not there.
 TileRing FindRegionRing(RegionLevels& levels, int level, int face);
 
 /// The rules by which a region ring is refined.
@@ -36,8 +36,8 @@ struct PatchPoint {
     std::vector<Term> terms;  ///< empty where it was found
 };
 
-/// The control points of a region ring's tile face in the order of the patch bases, phantoms' order in `order`; empty
-/// where the surface over it is no regular patch.
+/// The control points of a region ring's tile face in the order of the patch bases, phantoms' order in `order`;
+/// empty where the surface over it is no regular patch.
 struct RegularPatch {
     std::vector<PatchPoint> points;
     std::vector<int> order;  ///< of phantoms
