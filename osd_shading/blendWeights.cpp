@@ -189,9 +189,11 @@ void seedInverseLimit(BlendWeightOptions const& options, LimitStep<Real> const& 
 }
 
 /// b of the last level before its limit. `limit`: the last level's, made here where it is null and needed.
+/// `history`: takes what each level had, unless it is null.
 template <typename Real>
 std::vector<Real> refineWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
-                                FieldLevels<Real> const& levels, LimitStep<Real> const* limit, int numThreads) {
+                                FieldLevels<Real> const& levels, LimitStep<Real> const* limit,
+                                WeightHistory<Real>* history, int numThreads) {
     auto const numValuesOf = [&](int level) { return static_cast<std::size_t>(levels.Regions(level).NumValues()); };
     int const lastLevel = topology.LastLevel();
     CreaseRegions const& last = levels.Regions(lastLevel);
@@ -217,9 +219,20 @@ std::vector<Real> refineWeights(BlendWeightOptions const& options, RefinedTopolo
         }
 
         // Seed on top of it.
+        std::vector<Real> const before = history != nullptr ? weights : std::vector<Real>{};
+        auto const keep = [&] {
+            if (history == nullptr) return;
+            ValueMarks changed(weights.size(), 0);
+            for (std::size_t i = 0; i < weights.size(); ++i) {
+                changed[i] = std::fabs(weights[i] - before[i]) > kVanishing<Real>;
+            }
+            history->weights.push_back(weights);
+            history->changed.push_back(std::move(changed));
+        };
         ValueMarks eligible = findEligible(options, topology, level, here, last);
         if (options.scheme == WeightScheme::OneRing) {
             SeedRings(options, topology.Level(level), here, eligible, weights);
+            keep();
             continue;
         }
         ValueMarks const isNew =
@@ -237,6 +250,7 @@ std::vector<Real> refineWeights(BlendWeightOptions const& options, RefinedTopolo
             }
         }
         parentEligible.swap(eligible);
+        keep();
     }
     return weights;
 }
@@ -244,16 +258,18 @@ std::vector<Real> refineWeights(BlendWeightOptions const& options, RefinedTopolo
 }  // namespace
 
 template <typename Real>
-std::vector<Real> ComputeRefinedWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
-                                        FieldLevels<Real> const& levels, int numThreads) {
-    return refineWeights<Real>(options, topology, levels, nullptr, numThreads);
+WeightHistory<Real> ComputeWeightHistory(BlendWeightOptions const& options, RefinedTopology const& topology,
+                                         FieldLevels<Real> const& levels, int numThreads) {
+    WeightHistory<Real> history;
+    refineWeights<Real>(options, topology, levels, nullptr, &history, numThreads);
+    return history;
 }
 
 template <typename Real>
 std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
                                       FieldLevels<Real> const& levels, LimitStep<Real> const& limit,
                                       int numThreads) {
-    std::vector<Real> weights = refineWeights(options, topology, levels, &limit, numThreads);
+    std::vector<Real> weights = refineWeights<Real>(options, topology, levels, &limit, nullptr, numThreads);
     if (options.scheme == WeightScheme::One) return weights;
     if (options.scheme != WeightScheme::Bilinear) {
         std::vector<Real> limits(weights.size());
@@ -265,8 +281,8 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
 }
 
 #define OSD_SHADING_INSTANTIATE(Real)                                                                      \
-    template std::vector<Real> ComputeRefinedWeights(BlendWeightOptions const&, RefinedTopology const&,    \
-                                                     FieldLevels<Real> const&, int);                       \
+    template WeightHistory<Real> ComputeWeightHistory(BlendWeightOptions const&, RefinedTopology const&,   \
+                                                      FieldLevels<Real> const&, int);                      \
     template std::vector<Real> ComputeBlendWeights(BlendWeightOptions const&, RefinedTopology const&,      \
                                                    FieldLevels<Real> const&, LimitStep<Real> const&, int); \
     template void SeedRings(BlendWeightOptions const&, Far::TopologyLevel const&, CreaseRegions const&,    \

@@ -30,10 +30,17 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
                                       FieldLevels<Real> const& levels, LimitStep<Real> const& limit,
                                       int numThreads);
 
-/// The same before the limit step, and as it is: b of each value of the last level's mesh.
+/// b on the meshes of all levels from the start level on, as seeded and before any limit.
 template <typename Real>
-std::vector<Real> ComputeRefinedWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
-                                        FieldLevels<Real> const& levels, int numThreads);
+struct WeightHistory {
+    std::vector<std::vector<Real>> weights;  ///< by level from the start level on, per value
+    std::vector<ValueMarks> changed;         ///< likewise: whether seeding changed what refining had given
+};
+
+/// REQUIRES: a scheme that seeds, other than One.
+template <typename Real>
+WeightHistory<Real> ComputeWeightHistory(BlendWeightOptions const& options, RefinedTopology const& topology,
+                                         FieldLevels<Real> const& levels, int numThreads);
 
 /// Sets b = 1 on the rings of eligible vertices of a level, or of their regions.
 template <typename Real>

@@ -56,7 +56,7 @@ struct SurfacePoint {
     Vec3<Real> blendedNormal;     ///< N_B, of unit length or zero
     Real blendWeight = 0;         ///< b, in [0, 1]
 
-    Vec3<Real> duu, duv, dvv;  ///< of the position; zero unless asked for, and at extraordinary vertices
+    Vec3<Real> duu, duv, dvv;  ///< of the position: where asked for; zero at extraordinary vertices
     Vec3<Real> normalDu;       ///< of N_B by u; as above
     Vec3<Real> normalDv;       ///< of N_B by v; as above
 };

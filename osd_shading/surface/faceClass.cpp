@@ -32,6 +32,7 @@ public:
           _mesh(cutOut),
           _topology(_mesh.Mesh(options.rules), _lastLevel),
           _levels(_topology),
+          _limits(index(_lastLevel) + 1),
           _made(std::make_unique<FaceClass>()) {}
 
     std::unique_ptr<FaceClass> Compile() {
@@ -55,7 +56,6 @@ public:
 private:
     bool usesOne() const { return _options.shading.weights.scheme == WeightScheme::One; }
 
-    /// b of the last level, before its limit.
     void findWeights() {
         BlendWeightOptions const& options = _options.shading.weights;
         if (usesOne()) {
@@ -63,8 +63,19 @@ private:
             return;
         }
         FieldLevels<double> const levels(_topology, options.level, 1);
-        _weights = ComputeRefinedWeights(options, _topology, levels, 1);
-        _hasWeights = std::any_of(_weights.begin(), _weights.end(), [](double b) { return b != 0; });
+        _history = ComputeWeightHistory(options, _topology, levels, 1);
+        auto const isSet = [](auto b) { return b != 0; };
+        _hasWeights = std::any_of(_history.weights.back().begin(), _history.weights.back().end(), isSet);
+        for (ValueMarks const& marks : _history.changed) {
+            _isChanged.push_back(std::any_of(marks.begin(), marks.end(), isSet));
+        }
+    }
+    int firstWeights() const { return _options.shading.weights.level; }
+    /// b of a value, before any limit.
+    double weightOf(int level, int value) const {
+        if (usesOne()) return 1;
+        if (!_hasWeights || level < firstWeights()) return 0;
+        return _history.weights[index(level - firstWeights())][index(value)];
     }
 
     std::vector<std::uint32_t> newNodes(int count) {
@@ -76,46 +87,94 @@ private:
         return numbers;
     }
 
-    /// Whether b is not zero somewhere at the values round a face's descendants at the last level.
-    bool hasWeight(int level, int face) {
-        if (!_hasWeights) return false;
-        if (usesOne()) return true;
-        if (level < _lastLevel) {
+    /// Whether `isIt(value)` of any value of the faces round a face's descendants at level `at`.
+    template <typename IsIt>
+    bool anyRound(int level, int face, int at, IsIt const& isIt) {
+        if (level < at) {
             Far::ConstIndexArray const children = _levels.Level(level).GetFaceChildFaces(face);
             return std::any_of(children.begin(), children.begin() + children.size(),
-                               [&](int child) { return hasWeight(level + 1, child); });
+                               [&](int child) { return anyRound(level + 1, child, at, isIt); });
         }
         CreaseRegions const& regions = _levels.Regions(level);
         for (int const v : _levels.Level(level).GetFaceVertices(face)) {
             for (int const around : _levels.Level(level).GetVertexFaces(v)) {
                 int const* const values = regions.FaceValues(around);
                 for (int i = 0; i < _levels.Level(level).GetFaceVertices(around).size(); ++i) {
-                    if (_weights[index(values[i])] != 0) return true;
+                    if (isIt(values[i])) return true;
                 }
             }
         }
         return false;
     }
 
-    void compile(int level, int face, std::uint32_t node) {
-        std::vector<FaceCorner> inputs;
-        if (level == _lastLevel) {
-            LimitClass const& found = _limitClasses.Find(_levels, level, face, inputs);
-            std::vector<std::uint32_t> const lines = linesOf(level, inputs);
-            if (!found.IsRegular()) {
-                _made->patches->nodes[node].corners = static_cast<std::int32_t>(_corners.size());
-                _corners.push_back({level, face});
-            }
-            _pending.push_back({node, &found, lines});
-            return;
+    bool hasWeight(int level, int face) {
+        return _hasWeights &&
+               anyRound(level, face, _lastLevel, [&](int value) { return weightOf(_lastLevel, value) != 0; });
+    }
+
+    /// Whether nothing is seeded round a face any more that refining alone does not give.
+    bool isSeeded(int level, int face) {
+        if (level < std::max(_options.shading.startNormals.level, firstWeights())) return false;
+        for (int at = level + 1; at <= _lastLevel; ++at) {
+            ValueMarks const& changed = _history.changed[index(at - firstWeights())];
+            if (!_isChanged[index(at - firstWeights())]) continue;
+            if (anyRound(level, face, at, [&](int value) { return changed[index(value)] != 0; })) return false;
         }
-        // A patch as large as can be, where nothing changes any more.
-        bool const isSettled = usesOne() ? level >= _options.shading.startNormals.level : !hasWeight(level, face);
-        if (isSettled && StaysAsItIs(_levels, level, face, _lastLevel - level) &&
-            !(level == 0 && _topology.HasIrregularFaces(0))) {
+        return true;
+    }
+
+    LimitStep<double> const& limitStep(int level) {
+        std::unique_ptr<LimitStep<double>>& limit = _limits[index(level)];
+        if (!limit) {
+            limit = std::make_unique<LimitStep<double>>(_topology, level, _levels.Regions(level), 1,
+                                                        _options.shading.limits.normals);
+        }
+        return *limit;
+    }
+
+    /// Whether the limits at a face's vertices are the same taken at any level: where the masks are exact, and
+    /// there is a tangent plane.
+    bool hasExactCorners(int level, int face) {
+        CreaseRegions const& regions = _levels.Regions(level);
+        Far::ConstIndexArray const vertices = _levels.Level(level).GetFaceVertices(face);
+        std::vector<LimitFrame<double>> frames;
+        for (int corner = 0; corner < vertices.size(); ++corner) {
+            int const v = vertices[corner];
+            FindLimitFrames(limitStep(level), v, frames);
+            LimitFrame<double> const& frame =
+                frames[index(regions.CornerValue(face, corner) - regions.FirstValue(v))];
+            if (frame.isAverage) return false;
+            if (_options.shading.limits.normals == LimitNormalKind::Exact) continue;
+            auto const numFaces = static_cast<int>(frame.fan.faces.size());
+            int const lastExactFan = _topology.IsCatmark() ? 2 : 3;
+            VertexKind const kind = regions.Kind(v);
+            if (kind == VertexKind::Dart || (kind == VertexKind::Smooth && numFaces == 2) ||
+                (kind == VertexKind::Crease && numFaces > lastExactFan)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    void compile(int level, int face, std::uint32_t node) {
+        // As large as can be, where nothing changes any more.
+        bool const isNgonMesh = level == 0 && _topology.HasIrregularFaces(0);
+        bool isSettled = level == _lastLevel;
+        if (!isSettled && !isNgonMesh && StaysAsItIs(_levels, level, face, _lastLevel - level)) {
+            isSettled = usesOne()                ? level >= _options.shading.startNormals.level
+                        : hasWeight(level, face) ? isSeeded(level, face)
+                                                 : true;
+        }
+        if (isSettled) {
+            std::vector<FaceCorner> inputs;
             LimitClass const& found = _limitClasses.Find(_levels, level, face, inputs);
-            if (found.IsRegular()) {
-                _pending.push_back({node, &found, linesOf(level, inputs)});
+            if (found.IsRegular() || level == _lastLevel || hasExactCorners(level, face)) {
+                if (!found.IsRegular()) {
+                    _made->patches->nodes[node].corners = static_cast<std::int32_t>(_corners.size());
+                    _corners.push_back({level, face});
+                }
+                std::vector<std::uint32_t> const lines = linesOf(level, inputs);
+                _pending.push_back({node, &found, lines});
                 return;
             }
         }
@@ -207,12 +266,7 @@ private:
         };
         flatten(positions, _made->positionRows);
         if (_hasWeights) flatten(normals, _made->normalRows);
-        for (FirstLine const& line : _firstLines) {
-            double b = 0;
-            if (usesOne()) b = 1;
-            if (!usesOne() && _hasWeights && line.level == _lastLevel) b = _weights[index(line.value)];
-            _made->weights.push_back(b);
-        }
+        for (FirstLine const& line : _firstLines) _made->weights.push_back(weightOf(line.level, line.value));
         if (_hasWeights) makeStart(startLevel);
     }
 
@@ -225,13 +279,9 @@ private:
     }
 
     void makeCorners(int level, int face) {
-        CreaseRegions const& regions = _levels.Regions(level);
-        if (!_limit) {
-            _limit =
-                std::make_unique<LimitStep<double>>(_topology, level, regions, 1, _options.shading.limits.normals);
-        }
+        LimitStep<double> const& limit = limitStep(level);
         std::vector<FaceCorner> const grid = tables::FindFaceGrid(_topology, level, face, level);
-        tables::TangentRows tangents(_levels, *_limit, level, grid);
+        tables::TangentRows tangents(_levels, limit, level, grid);
         bool const isCatmark = _topology.IsCatmark();
         int const places[4][2] = {{0, 0}, {0, 1}, {1, isCatmark ? 1 : 0}, {1, 0}};
         for (int corner = 0; corner < (isCatmark ? 4 : 3); ++corner) {
@@ -245,7 +295,7 @@ private:
                 return terms.emplace(line, FaceCornerRows::Term{line, 0, 0, 0}).first->second;
             };
             std::vector<std::pair<int, double>> limits;
-            _limit->AppendTerms(vertex, value, limits);
+            limit.AppendTerms(vertex, value, limits);
             for (auto const& [source, weight] : limits) term(lineOfValue(level, source)).limit += weight;
             LimitFrame<double> const frame = tangents.Find(row, column);
             made.isAverage = frame.isAverage;
@@ -362,8 +412,9 @@ private:
     tables::TileRing const& _mesh;
     RefinedTopology _topology;
     RegionLevels _levels;
-    std::unique_ptr<LimitStep<double>> _limit;
-    std::vector<double> _weights;  // b by value of the last level
+    std::vector<std::unique_ptr<LimitStep<double>>> _limits;  // by level
+    WeightHistory<double> _history;
+    std::vector<bool> _isChanged;  // by its levels
     bool _hasWeights = false;
     std::vector<FirstLine> _firstLines;
     std::map<std::pair<int, int>, std::uint32_t> _lineOfValue;  // by level and value

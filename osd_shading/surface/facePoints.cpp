@@ -335,7 +335,6 @@ void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool
     }
     if (IsZero(point.limitNormal)) point.limitNormal = point.subdividedNormal;
     point.blendedNormal = BlendNormals(point.limitNormal, point.subdividedNormal, b, exponent);
-    point.duu = point.duv = point.dvv = point.normalDu = point.normalDv = {};
     if (!hasSecond) return;
 
     Vec3<Real> const duu = vectorAt(3, 0), duv = vectorAt(4, 0), dvv = vectorAt(5, 0);
@@ -383,7 +382,7 @@ void FacePoints<Real>::Evaluate(double exponent, int root, Real u, Real v, Real 
                 point.position += _origin;
                 point.du = scale * point.du;
                 point.dv = scale * point.dv;
-                return;
+                return;  // with second derivatives of zero
             }
         }
         node = &_patches->nodes[node->first + static_cast<std::uint32_t>(goDown(_isCatmark, u, v, scale))];

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace osd_shading {
 inline namespace v1 {
@@ -85,15 +86,37 @@ Quartic expanded(BarycentricTerm const (&terms)[Count], std::array<int, 3> const
     return sum;
 }
 
-/// In the order of kTriangleLattice.
-std::array<Quartic, kTrianglePoints> const& boxSpline() {
-    static std::array<Quartic, kTrianglePoints> const kPieces = {
-        expanded(kAtCorner, {0, 1, 2}),   expanded(kAtCorner, {1, 2, 0}),     expanded(kAtCorner, {2, 0, 1}),
-        expanded(kAcrossEdge, {0, 2, 1}), expanded(kBeyondCorner, {0, 2, 1}), expanded(kBeyondCorner, {0, 1, 2}),
-        expanded(kAcrossEdge, {0, 1, 2}), expanded(kBeyondCorner, {1, 0, 2}), expanded(kBeyondCorner, {1, 2, 0}),
-        expanded(kAcrossEdge, {1, 2, 0}), expanded(kBeyondCorner, {2, 1, 0}), expanded(kBeyondCorner, {2, 0, 1})};
-    return kPieces;
-}
+/// The powers u^i v^j with i + j <= 4, those of low degree first.
+constexpr int kNumPowers = 15;
+constexpr int kPowers[kNumPowers][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1},
+                                        {1, 2}, {0, 3}, {4, 0}, {3, 1}, {2, 2}, {1, 3}, {0, 4}};
+
+/// By power, the coefficients of all control points, in the order of kTriangleLattice.
+template <typename Real>
+struct BoxSpline {
+    Real coefficients[kNumPowers][kTrianglePoints];
+
+    BoxSpline() {
+        Quartic const pieces[kTrianglePoints] = {
+            expanded(kAtCorner, {0, 1, 2}),     expanded(kAtCorner, {1, 2, 0}),
+            expanded(kAtCorner, {2, 0, 1}),     expanded(kAcrossEdge, {0, 2, 1}),
+            expanded(kBeyondCorner, {0, 2, 1}), expanded(kBeyondCorner, {0, 1, 2}),
+            expanded(kAcrossEdge, {0, 1, 2}),   expanded(kBeyondCorner, {1, 0, 2}),
+            expanded(kBeyondCorner, {1, 2, 0}), expanded(kAcrossEdge, {1, 2, 0}),
+            expanded(kBeyondCorner, {2, 1, 0}), expanded(kBeyondCorner, {2, 0, 1})};
+        for (std::size_t power = 0; power < kNumPowers; ++power) {
+            auto const i = static_cast<std::size_t>(kPowers[power][0]),
+                       j = static_cast<std::size_t>(kPowers[power][1]);
+            for (std::size_t p = 0; p < kTrianglePoints; ++p) {
+                coefficients[power][p] = static_cast<Real>(pieces[p][i][j]);
+            }
+        }
+    }
+    static BoxSpline const& Get() {
+        static BoxSpline const kSpline;
+        return kSpline;
+    }
+};
 
 }  // namespace
 
@@ -123,36 +146,29 @@ void EvaluateQuadBasis(Real u, Real v, bool hasSecond, PatchBasis<Real>& basis) 
 
 template <typename Real>
 void EvaluateTriangleBasis(Real u, Real v, bool hasSecond, PatchBasis<Real>& basis) {
-    // Powers and their derivatives.
-    Real const pu[5] = {1, u, u * u, u * u * u, u * u * u * u}, pv[5] = {1, v, v * v, v * v * v, v * v * v * v};
-    Real const qu[5] = {0, 1, 2 * u, 3 * pu[2], 4 * pu[3]}, qv[5] = {0, 1, 2 * v, 3 * pv[2], 4 * pv[3]};
-    Real const ru[5] = {0, 0, 2, 6 * u, 12 * pu[2]}, rv[5] = {0, 0, 2, 6 * v, 12 * pv[2]};
-    auto const& pieces = boxSpline();
-    for (std::size_t p = 0; p < pieces.size(); ++p) {
-        Real sums[6] = {};
-        for (std::size_t i = 0; i < 5; ++i) {
-            Real value = 0, first = 0, second = 0;
-            for (std::size_t j = 0; i + j < 5; ++j) {
-                auto const c = static_cast<Real>(pieces[p][i][j]);
-                value += c * pv[j];
-                first += c * qv[j];
-                if (hasSecond) second += c * rv[j];
-            }
-            sums[0] += pu[i] * value;
-            sums[1] += qu[i] * value;
-            sums[2] += pu[i] * first;
-            if (!hasSecond) continue;
-            sums[3] += ru[i] * value;
-            sums[4] += qu[i] * first;
-            sums[5] += pu[i] * second;
+    BoxSpline<Real> const& spline = BoxSpline<Real>::Get();
+    Real const u2 = u * u, v2 = v * v, uv = u * v, u3 = u2 * u, v3 = v2 * v;
+    auto const sum = [&](Real(&result)[kQuadPoints], auto const&... factors) {
+        // Powers whose derivative is zero are left out: `factors` are pairs of a power and what it is there.
+        for (int p = 0; p < kTrianglePoints; ++p) {
+            result[p] = (... + (factors.second * spline.coefficients[factors.first][p]));
         }
-        basis.value[p] = sums[0];
-        basis.du[p] = sums[1];
-        basis.dv[p] = sums[2];
-        basis.duu[p] = sums[3];
-        basis.duv[p] = sums[4];
-        basis.dvv[p] = sums[5];
-    }
+    };
+    using Factor = std::pair<int, Real>;
+    sum(basis.value, Factor{0, 1}, Factor{1, u}, Factor{2, v}, Factor{3, u2}, Factor{4, uv}, Factor{5, v2},
+        Factor{6, u3}, Factor{7, u2 * v}, Factor{8, u * v2}, Factor{9, v3}, Factor{10, u2 * u2}, Factor{11, u3 * v},
+        Factor{12, u2 * v2}, Factor{13, u * v3}, Factor{14, v2 * v2});
+    sum(basis.du, Factor{1, 1}, Factor{3, 2 * u}, Factor{4, v}, Factor{6, 3 * u2}, Factor{7, 2 * uv}, Factor{8, v2},
+        Factor{10, 4 * u3}, Factor{11, 3 * u2 * v}, Factor{12, 2 * u * v2}, Factor{13, v3});
+    sum(basis.dv, Factor{2, 1}, Factor{4, u}, Factor{5, 2 * v}, Factor{7, u2}, Factor{8, 2 * uv}, Factor{9, 3 * v2},
+        Factor{11, u3}, Factor{12, 2 * u2 * v}, Factor{13, 3 * u * v2}, Factor{14, 4 * v3});
+    if (!hasSecond) return;
+    sum(basis.duu, Factor{3, 2}, Factor{6, 6 * u}, Factor{7, 2 * v}, Factor{10, 12 * u2}, Factor{11, 6 * uv},
+        Factor{12, 2 * v2});
+    sum(basis.duv, Factor{4, 1}, Factor{7, 2 * u}, Factor{8, 2 * v}, Factor{11, 3 * u2}, Factor{12, 4 * uv},
+        Factor{13, 3 * v2});
+    sum(basis.dvv, Factor{5, 2}, Factor{8, 2 * u}, Factor{9, 6 * v}, Factor{12, 2 * u2}, Factor{13, 6 * uv},
+        Factor{14, 12 * v2});
 }
 
 #define OSD_SHADING_INSTANTIATE(Real)                                     \

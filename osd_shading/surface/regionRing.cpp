@@ -125,8 +125,27 @@ SubdivisionRules RulesOfRings(Sdc::SchemeType scheme) {
 
 TileRing FindRegionRing(RegionLevels& levels, int levelIndex, int face) {
     Far::TopologyLevel const& level = levels.Level(levelIndex);
+    CreaseRegions const& regions = levels.Regions(levelIndex);
+    Far::ConstIndexArray const corners = level.GetFaceVertices(face);
+    // Its vertices are values, so that sharp edges, non-manifold and double ones too, become boundaries; but where
+    // one sharp edge ends both its sides are needed: its other end is one vertex, and so are those that follow.
+    std::vector<int> whole;
+    auto const sharpNeighbors = [&](int v) {
+        std::vector<int> neighbors;
+        for (int const edge : level.GetVertexEdges(v)) {
+            Far::ConstIndexArray const ends = level.GetEdgeVertices(edge);
+            if (IsSharpEdge(level, edge)) neighbors.push_back(ends[0] == v ? ends[1] : ends[0]);
+        }
+        return neighbors;
+    };
+    for (int const v : corners) {
+        std::vector<int> const neighbors = sharpNeighbors(v);
+        if (neighbors.size() != 1) continue;
+        whole.push_back(neighbors[0]);
+        for (int const next : sharpNeighbors(neighbors[0])) whole.push_back(next);
+    }
     TileRing ring;
-    std::unordered_map<int, int> numberOfVertex;
+    std::unordered_map<int, int> numberOfValue;
     std::unordered_set<int> isInRing;
     auto const add = [&](int f, int firstCorner) {
         if (!isInRing.insert(f).second) return;
@@ -136,17 +155,18 @@ TileRing FindRegionRing(RegionLevels& levels, int levelIndex, int face) {
         ring.firstCorners.push_back(firstCorner);
         ring.faceSizes.push_back(size);
         for (int i = 0; i < size; ++i) {
-            int const vertex = vertices[(firstCorner + i) % size];
-            auto const [known, isNew] = numberOfVertex.emplace(vertex, ring.numVertices);
+            int const corner = (firstCorner + i) % size;
+            bool const isWhole = std::find(whole.begin(), whole.end(), vertices[corner]) != whole.end();
+            int const value = isWhole ? regions.FirstValue(vertices[corner]) : regions.CornerValue(f, corner);
+            auto const [known, isNew] = numberOfValue.emplace(value, ring.numVertices);
             if (isNew) {
                 ++ring.numVertices;
-                ring.vertices.push_back(vertex);
+                ring.vertices.push_back(vertices[corner]);
             }
             ring.faceVertices.push_back(known->second);
         }
     };
     add(face, 0);
-    Far::ConstIndexArray const corners = level.GetFaceVertices(face);
     std::vector<RegionFan> fans;
     for (int i = 0; i < corners.size(); ++i) {
         RegionFan const fan = fanAt(levels, levelIndex, face, i, fans);
@@ -156,6 +176,20 @@ TileRing FindRegionRing(RegionLevels& levels, int levelIndex, int face) {
         for (std::size_t k = 1; k < count; ++k) {
             std::size_t const next = (own + k) % count;
             add(fan.faces[next], fan.corners[next]);
+        }
+    }
+    // There the faces across it are in the ring: then all of their region at its other end, which would be a corner
+    // otherwise.
+    for (std::size_t before = 0; !whole.empty() && before != ring.faces.size();) {
+        before = ring.faces.size();
+        for (int const v : corners) {
+            if (std::find(whole.begin(), whole.end(), v) == whole.end()) continue;
+            FindRegionFans(level, regions, v, fans);
+            for (RegionFan const& fan : fans) {
+                bool const isThere =
+                    std::any_of(fan.faces.begin(), fan.faces.end(), [&](int f) { return isInRing.count(f) > 0; });
+                for (std::size_t k = 0; k < fan.faces.size() && isThere; ++k) add(fan.faces[k], fan.corners[k]);
+            }
         }
     }
 
@@ -186,8 +220,9 @@ TileRing FindRegionRing(RegionLevels& levels, int levelIndex, int face) {
         ring.creaseSharpness.push_back(Sdc::Crease::SHARPNESS_INFINITE);
     }
     std::vector<int> sharpCorners;
-    for (int const v : corners) {
-        if (levels.Regions(levelIndex).Kind(v) == VertexKind::Corner) sharpCorners.push_back(numberOfVertex[v]);
+    for (int i = 0; i < corners.size(); ++i) {
+        // The face itself is the first in the ring.
+        if (regions.Kind(corners[i]) == VertexKind::Corner) sharpCorners.push_back(ring.faceVertices[index(i)]);
     }
     std::sort(sharpCorners.begin(), sharpCorners.end());
     ring.cornerVertices = sharpCorners;

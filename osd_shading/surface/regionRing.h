@@ -17,7 +17,7 @@ using tables::TileRing;
 
 /// A face with the faces of its own region at each of its vertices, as a mesh of its own in which what is sharp is
 /// infinitely sharp: all that the limit surface over the face depends on, this side of sharp edges. Its tile face
-/// is face 0. What lies across a sharp edge, a non-manifold one too, is not there.
+/// is face 0. What lies across a sharp edge, a non-manifold one too, is there only where that ends in a dart.
 TileRing FindRegionRing(RegionLevels& levels, int level, int face);
 
 /// The rules by which a region ring is refined.
