@@ -193,6 +193,10 @@ ShadingOptions const& LimitSurface<Real>::Options() const {
     return _topology->options.shading;
 }
 template <typename Real>
+Far::TopologyRefiner const& LimitSurface<Real>::Refiner() const {
+    return _topology->mesh.Refiner();
+}
+template <typename Real>
 int LimitSurface<Real>::NumFaces() const {
     return _topology->base.GetNumFaces();
 }

@@ -50,15 +50,18 @@ enum class SurfaceDerivatives {
 template <typename Real>
 struct SurfacePoint {
     Vec3<Real> position;          ///< on the limit surface
-    Vec3<Real> du, dv;            ///< derivatives of the position by u and v
+    Vec3<Real> du;                ///< derivative of the position by u
+    Vec3<Real> dv;                ///< derivative of the position by v
     Vec3<Real> limitNormal;       ///< N_L, of unit length; zero where nothing gives one
     Vec3<Real> subdividedNormal;  ///< N_S, of unit length; zero where b = 0
     Vec3<Real> blendedNormal;     ///< N_B, of unit length or zero
     Real blendWeight = 0;         ///< b, in [0, 1]
 
-    Vec3<Real> duu, duv, dvv;  ///< of the position: where asked for; zero at extraordinary vertices
-    Vec3<Real> normalDu;       ///< of N_B by u; as above
-    Vec3<Real> normalDv;       ///< of N_B by v; as above
+    Vec3<Real> duu;       ///< second derivative of the position, where asked for; zero at extraordinary vertices
+    Vec3<Real> duv;       ///< as above, by u and v
+    Vec3<Real> dvv;       ///< as above, by v
+    Vec3<Real> normalDu;  ///< of N_B by u; as above
+    Vec3<Real> normalDv;  ///< of N_B by v; as above
 };
 
 /// Counts of a LimitSurface; they grow as it is used.
@@ -107,9 +110,11 @@ public:
     LimitSurface Moved(ShadingInput<Real> const& input) const;
 
     ShadingOptions const& Options() const;  ///< as resolved: no level is left to the library
-    int NumFaces() const;                   ///< of the control mesh
-    int FaceSize(int face) const;           ///< its vertices. REQUIRES: 0 <= face < NumFaces(), here and below
-    bool IsHole(int face) const;            ///< holes can be evaluated as other faces
+    Far::TopologyRefiner const& Refiner()
+        const;                     ///< whose level 0 is the control mesh; lives as long as the surface
+    int NumFaces() const;          ///< of the control mesh
+    int FaceSize(int face) const;  ///< its vertices. REQUIRES: 0 <= face < NumFaces(), here and below
+    bool IsHole(int face) const;   ///< holes can be evaluated as other faces
 
     /// The point at (u, v) of a control face.
     ///

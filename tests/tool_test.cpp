@@ -108,7 +108,7 @@ TEST(CommandLine, TakesEachValueOfEachOptionAndReportsIt) {
         {"--exponent", "exponent", {"0.5", "1", "+2", "1e1"}},
         {"--start-normals", "start_normals", {"uniform", "corner-area", "angle", "limit", "limit-smoothed"}},
         {"--averaging", "averaging", {"linear", "renormalised", "spherical"}},
-        {"--limit-normals", "limit_normals", {"limit", "face-average"}},
+        {"--limit-normals", "limit_normals", {"limit", "face-average", "exact"}},
         {"--positions", "positions", {"limit", "refined"}},
         {"--boundary", "boundary", {"none", "edge-only", "edge-and-corner"}},
         {"--creasing", "creasing", {"uniform", "chaikin"}},
@@ -191,6 +191,21 @@ TEST(CommandLine, RefusesBadValuesInOneLineThatNamesTheOption) {
         {{"--level", "2", "--normals-from", "3"}, "--normals-from: 3 lies above the last level, 2"},
         {{"--level", "2", "--weights-from", "3"}, "--weights-from: 3 lies above the last level, 2"},
         {{"--normals-from", "-1"}, "--normals-from"},
+        {{"--tessellate", "0"}, "--tessellate: '0' is not screen, curvature or a number from 1 to 1024"},
+        {{"--tessellate", "1025"}, "--tessellate: '1025'"},
+        {{"--tessellate", "smooth"}, "--tessellate: 'smooth'"},
+        {{"--tessellate"}, "--tessellate"},
+        {{"--max-angle", "5"}, "--max-angle: nothing is tessellated"},
+        {{"--tessellate", "curvature", "--max-angle", "0"}, "--max-angle"},
+        {{"--tessellate", "screen", "--max-angle", "5"}, "--max-angle: goes with --tessellate curvature"},
+        {{"--tessellate", "4", "--max-pixels", "5"}, "--max-pixels: goes with --tessellate screen"},
+        {{"--tessellate", "screen", "--eye", "1,2"}, "--eye: '1,2' is not a point X,Y,Z"},
+        {{"--tessellate", "screen", "--eye", "1,2,inf"}, "--eye"},
+        {{"--tessellate", "curvature", "--eye", "1,2,3"}, "--eye: goes with --tessellate screen"},
+        {{"--tessellate", "4", "--check"}, "--check: needs a uniform level"},
+        {{"--tessellate", "4", "--frames", "2"}, "--frames: needs a uniform level"},
+        {{"--tessellate", "4", "--positions", "refined"}, "limit positions only"},
+        {{"--tessellate", "4", "--level", "9"}, "at most 8"},
         {{"--exponent", "0"}, "--exponent: '0'"},
         {{"--exponent", "-2"}, "--exponent: '-2'"},
         {{"--exponent", "nan"}, "--exponent: 'nan'"},
@@ -263,6 +278,7 @@ TEST(CommandLine, PrintsHelpWithEveryOptionAndTheVersion) {
                                "--spherical-steps", "--threads",      "--check",        "--tolerance",
                                "--ascii",           "--cage",         "--report",       "--quiet",
                                "--memory-limit",    "--frames",       "--deform",       "--stats",
+                               "--tessellate",      "--max-angle",    "--max-pixels",   "--eye",
                                "--version"}) {
         EXPECT_NE(help.out.find(option), std::string::npos) << option;
     }
@@ -396,7 +412,7 @@ TEST(Report, HasExactlyTheKeysThatScriptsRelyOn) {
     json const report = ReportOf({ModelPath("letter_a_dart"), "--check"});
     for (char const* key :
          {"vertices", "faces", "values", "sharp_vertices", "darts", "boundary_vertices", "vertices_with_weight",
-          "zero_normals", "fallback_normals", "opposed_normals", "peak_bytes"}) {
+          "zero_normals", "fallback_normals", "averaged_normals", "opposed_normals", "peak_bytes"}) {
         EXPECT_TRUE(report[key].is_number_integer()) << key;
     }
     for (char const* key : {"min_subdivided_length", "mean_angle_deg", "max_angle_deg"}) {
@@ -494,6 +510,29 @@ TEST(Frames, AreTimedAndTheirTableIsCounted) {
     json const normals =
         ReportOf({ModelPath("cube_dart"), "--frames", "1", "--scheme", "catmark", "--preset", "smooth"});
     EXPECT_EQ(normals["table"]["blended_values"], normals["values"]);
+}
+
+TEST(Tessellation, IsReportedAndWrittenAsTriangles) {
+    json const uniform = ReportOf({ModelPath("cube_dart"), "--tessellate", "4"});
+    EXPECT_EQ(uniform["faces"], 6 * 4 * 4 * 2);
+    EXPECT_EQ(uniform["vertices"], 8 + 12 * 3 + 6 * 9);
+    EXPECT_TRUE(uniform["extraordinary"].is_null());
+    EXPECT_GT(uniform["seconds"]["tessellation"], 0.0);
+    json const coarse = ReportOf({ModelPath("mug"), "--tessellate", "curvature", "--max-angle", "20"}),
+               fine = ReportOf({ModelPath("mug"), "--tessellate", "curvature", "--max-angle", "5"});
+    EXPECT_GT(fine["faces"], 4 * coarse["faces"].get<int>());
+    // From far away it is small on the screen.
+    json const near = ReportOf({ModelPath("mug"), "--tessellate", "screen"}),
+               far = ReportOf({ModelPath("mug"), "--tessellate", "screen", "--eye", "0,0,900"});
+    EXPECT_GT(near["faces"], 4 * far["faces"].get<int>());
+
+    TemporaryFolder const folder;
+    Outcome const written = RunTool({ModelPath("mug"), "--tessellate", "curvature", "-o", folder.File("mug.obj")});
+    EXPECT_EQ(written.status, 0) << written.error;
+    // What is written is a mesh that can be read.
+    json const again = ReportOf({folder.File("mug.obj"), "--scheme", "loop", "--level", "1"});
+    json const first = ReportOf({ModelPath("mug"), "--tessellate", "curvature"});
+    EXPECT_EQ(again["faces"], 4 * first["faces"].get<int>());
 }
 
 TEST(Frames, StatsAloneBuildTheTable) {

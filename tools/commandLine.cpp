@@ -27,6 +27,8 @@ struct GivenOptions {
     std::optional<Precision> precision;
     std::optional<int> frames;
     std::optional<DeformationKind> deformation;
+    std::optional<TessellationOptions> tessellation;
+    std::optional<double> maxAngle, maxPixels;
 };
 
 // Bytes, or units of 1024, its square, cube and fourth power.
@@ -98,6 +100,86 @@ void AddFrameOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
     app.add_flag("--stats", line.stats, "Build a table too, and say what it holds")->group(kGroup);
 }
 
+// Numbers with a separator between them, as many as `numbers` has.
+template <typename T>
+bool ParseList(std::string_view text, char separator, T* numbers, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        std::size_t const end = i + 1 < count ? text.find(separator) : text.size();
+        if (end == std::string_view::npos) return false;
+        std::optional<T> const number = ParseNumber<T>(text.substr(0, end));
+        if (!number) return false;
+        numbers[i] = *number;
+        text.remove_prefix(i + 1 < count ? end + 1 : end);
+    }
+    return true;
+}
+
+void AddTessellationOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
+    static constexpr char kGroup[] = "Adaptive triangles";
+    auto const readKind = [&given](std::string const& text) {
+        TessellationOptions options;
+        if (text == "screen") {
+            options.kind = TessellationKind::Screen;
+        } else if (text == "curvature") {
+            options.kind = TessellationKind::Curvature;
+        } else {
+            std::optional<int> const rate = ParseNumber<int>(text);
+            if (!rate || *rate < 1 || *rate > 1024) {
+                Refuse("--tessellate", "'" + text + "' is not screen, curvature or a number from 1 to 1024");
+            }
+            options.rate = *rate;
+        }
+        given.tessellation = options;
+    };
+    app.add_option_function<std::string>(
+           "--tessellate", readKind,
+           "In place of a uniform level: triangles on the limit surface, by the length of edges on a screen, by "
+           "curvature, or N segments to each edge. --level is then that at which weights end (default: where all "
+           "creases are released)")
+        ->type_name("screen|curvature|N")
+        ->group(kGroup);
+    auto const isPositive = [](double x) { return std::isfinite(x) && x > 0; };
+    AddNumber(app, "--max-angle", given.maxAngle, "a number above 0", isPositive,
+              "curvature: degrees that the surface turns from point to point (default 10)")
+        ->group(kGroup);
+    AddNumber(app, "--max-pixels", given.maxPixels, "a number above 0", isPositive,
+              "screen: length of a segment (default 8), on a screen of 1920 x 1080")
+        ->group(kGroup);
+    auto const readEye = [&line](std::string const& text) {
+        double numbers[3] = {};
+        bool const isRead = ParseList(text, ',', numbers, 3);
+        if (!isRead || !std::isfinite(numbers[0]) || !std::isfinite(numbers[1]) || !std::isfinite(numbers[2])) {
+            Refuse("--eye", "'" + text + "' is not a point X,Y,Z");
+        }
+        line.eye = Vec3<double>{numbers[0], numbers[1], numbers[2]};
+    };
+    app.add_option_function<std::string>(
+           "--eye", readEye, "screen: where the model is looked at from (default: the front, all of it in view)")
+        ->type_name("X,Y,Z")
+        ->group(kGroup);
+}
+
+// What triangles of the limit surface do not go with.
+void ResolveTessellation(CLI::App const& app, CommandLine& line, GivenOptions const& given) {
+    for (char const* option : {"--max-angle", "--max-pixels", "--eye"}) {
+        if (app.count(option) > 0 && !given.tessellation)
+            Refuse(option, "nothing is tessellated; give --tessellate");
+    }
+    if (!given.tessellation) return;
+    line.tessellation = given.tessellation;
+    TessellationKind const kind = given.tessellation->kind;
+    if (given.maxAngle && kind != TessellationKind::Curvature)
+        Refuse("--max-angle", "goes with --tessellate curvature");
+    if (given.maxPixels && kind != TessellationKind::Screen)
+        Refuse("--max-pixels", "goes with --tessellate screen");
+    if (line.eye && kind != TessellationKind::Screen) Refuse("--eye", "goes with --tessellate screen");
+    Replace(line.tessellation->maxAngle, given.maxAngle);
+    Replace(line.tessellation->maxPixels, given.maxPixels);
+    for (char const* option : {"--check", "--frames", "--stats", "--cage"}) {
+        if (app.count(option) > 0) Refuse(option, "needs a uniform level, which --tessellate has not");
+    }
+}
+
 }  // namespace
 
 std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
@@ -116,6 +198,7 @@ std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
     AddShadingOptions(app, given.shading);
     AddRunOptions(app, line, given);
     AddFrameOptions(app, line, given);
+    AddTessellationOptions(app, line, given);
     try {
         app.parse(argc, argv);
     } catch (CLI::Success const& success) {
@@ -127,9 +210,11 @@ std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
 
     Replace(line.precision, given.precision);
     line.tolerance = given.tolerance.value_or(line.precision == Precision::Double ? 1e-12 : 1e-6);
-    line.shading = given.shading.Resolve();
+    line.shading = given.shading.Resolve(given.tessellation ? kDefaultSurfaceLevel : ShadingOptions{}.level);
     line.shading.execution.numThreads = given.threads.value_or(0);
 
+    ResolveTessellation(app, line, given);
+    if (line.tessellation) line.tessellation->numThreads = line.shading.execution.numThreads;
     Replace(line.numFrames, given.frames);
     Replace(line.deformation, given.deformation);
     if (given.deformation && !given.frames) Refuse("--deform", "there are no frames; give --frames their number");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "methodOptions.h"
+#include "osd_shading/limitTessellation.h"
 #include "osd_shading/shadingOptions.h"
 #include "outputTarget.h"
 
@@ -30,6 +31,11 @@ struct CommandLine : MeshOptions {
     int numFrames = 0;  ///< to be timed; 0: none
     DeformationKind deformation = DeformationKind::Bend;
     bool stats = false;  ///< what a table holds
+
+    /// Cut the limit surface adaptively in place of a uniform level; unset: no. Screen: seen from `eye`, or, where
+    /// that is unset, from the front, far enough to see all of the model.
+    std::optional<TessellationOptions> tessellation;
+    std::optional<Vec3<double>> eye;
 
     std::string reportFile;  ///< empty: none
     bool quiet = false;

@@ -94,12 +94,16 @@ void AddShadingOptions(CLI::App& app, ShadingChoice& given) {
         ->group(kGroup);
 }
 
-ShadingOptions ShadingChoice::Resolve() const {
-    int const last = level.value_or(ShadingOptions{}.level);
-    RequireUpTo(last, "--normals-from", normalsFrom);
-    RequireUpTo(last, "--weights-from", weightsFrom);
+ShadingOptions ShadingChoice::Resolve(int defaultLevel) const {
+    int const last = level.value_or(defaultLevel);
+    if (last >= 0) {
+        RequireUpTo(last, "--normals-from", normalsFrom);
+        RequireUpTo(last, "--weights-from", weightsFrom);
+    }
 
-    ShadingOptions options = smoothPreset.value_or(false) ? SmoothPreset(last) : PaperPreset(last);
+    // A level left to the library is at least that of the smooth preset's normals.
+    ShadingOptions options = smoothPreset.value_or(false) ? SmoothPreset(last < 0 ? 2 : last) : PaperPreset(last);
+    options.level = last;
     Replace(options.startNormals.kind, startNormals);
     Replace(options.startNormals.level, normalsFrom);
     Replace(options.subdividedNormals.averaging, averaging);

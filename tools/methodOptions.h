@@ -42,8 +42,10 @@ struct ShadingChoice {
     std::optional<LimitNormalKind> limitNormals;
     std::optional<PositionKind> positions;
 
+    /// `defaultLevel`: where none is given.
+    ///
     /// ERRORS: UsageError where options contradict each other.
-    ShadingOptions Resolve() const;
+    ShadingOptions Resolve(int defaultLevel = ShadingOptions{}.level) const;
 };
 
 /// The words of `--preset`.

@@ -5,10 +5,14 @@
 #include <opensubdiv/far/error.h>
 #include <signal.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <new>
 #include <optional>
 #include <string>
@@ -26,6 +30,7 @@
 #include "osd_shading/io/objWriter.h"
 #include "osd_shading/io/plyWriter.h"
 #include "osd_shading/io/usdWriter.h"
+#include "osd_shading/limitTessellation.h"
 #include "osd_shading/shadingTable.h"
 #include "osd_shading/subdivisionShading.h"
 #include "outputTarget.h"
@@ -96,6 +101,61 @@ ShadingResult<Real> Shade(CommandLine const& line, ControlMesh const& mesh, Shad
     } catch (InvalidControlMesh const& error) {
         throw io::ParseError(line.modelFile, 0, error.what());  // the library knows no files
     }
+}
+
+// A view from `eye` towards the middle of the points, or from the front, that shows all of them. Column by column.
+std::array<double, 16> ViewProjection(std::vector<double> const& positions, std::optional<Vec3<double>> const& eye,
+                                      double aspect) {
+    Vec3<double> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
+        low = {std::min(low.x, positions[i]), std::min(low.y, positions[i + 1]), std::min(low.z, positions[i + 2])};
+        high = {std::max(high.x, positions[i]), std::max(high.y, positions[i + 1]),
+                std::max(high.z, positions[i + 2])};
+    }
+    Vec3<double> const middle{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
+    double const radius = std::max(std::hypot(high.x - low.x, high.y - low.y, high.z - low.z) / 2,
+                                   std::numeric_limits<double>::min());
+    constexpr double kHalfView = 0.35;  // radians
+    double const distance = radius / std::sin(kHalfView);
+    Vec3<double> const from = eye.value_or(Vec3<double>{middle.x, middle.y, middle.z + distance});
+
+    // Axes of the view; looked at from where the middle is, any will do.
+    auto const unit = [](Vec3<double> const& v, Vec3<double> const& other) {
+        double const length = std::hypot(v.x, v.y, v.z);
+        return length > 0 ? Vec3<double>{v.x / length, v.y / length, v.z / length} : other;
+    };
+    auto const cross = [](Vec3<double> const& a, Vec3<double> const& b) {
+        return Vec3<double>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    };
+    Vec3<double> const back = unit({from.x - middle.x, from.y - middle.y, from.z - middle.z}, {0, 0, 1});
+    Vec3<double> const right = unit(cross({0, 1, 0}, back), {1, 0, 0}), up = cross(back, right);
+    double const scale = 1 / std::tan(kHalfView);
+    auto const dot = [](Vec3<double> const& a, Vec3<double> const& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    double const x = scale / aspect, y = scale;
+    return {x * right.x,           y * up.x,           -back.x,         -back.x,
+            x * right.y,           y * up.y,           -back.y,         -back.y,
+            x * right.z,           y * up.z,           -back.z,         -back.z,
+            -x * dot(right, from), -y * dot(up, from), dot(back, from), dot(back, from)};
+}
+
+// Triangles of the limit surface in place of a uniform level.
+template <typename Real>
+ShadingResult<Real> Tessellate(CommandLine const& line, io::Model const& model, ControlMesh const& mesh,
+                               ShadingInput<Real> const& input, StageSeconds& seconds) {
+    ShadingOptions options = line.shading;
+    options.execution.memoryLimit = MemoryLimit(line);
+    TessellationOptions tessellation = *line.tessellation;
+    if (tessellation.kind == TessellationKind::Screen) {
+        double const aspect = static_cast<double>(tessellation.width) / tessellation.height;
+        tessellation.viewProjection = ViewProjection(model.positions, line.eye, aspect);
+    }
+    return Timed(seconds, "tessellation", [&] {
+        try {
+            return TessellateLimitSurface(LimitSurface<Real>(mesh, input, options), tessellation);
+        } catch (InvalidControlMesh const& error) {
+            throw io::ParseError(line.modelFile, 0, error.what());
+        }
+    });
 }
 
 // Builds a table of the same mesh, and times frames where they are wanted.
@@ -176,7 +236,8 @@ int Run(CommandLine const& line) {
     RunInput<Real> const input = MakeInput<Real>(line.modelFile, model, line.shading.startNormals.kind);
 
     // Shade it.
-    ShadingResult<Real> const result = Shade(line, mesh, input.input);
+    ShadingResult<Real> const result = line.tessellation ? Tessellate(line, model, mesh, input.input, run.seconds)
+                                                         : Shade(line, mesh, input.input);
     run.options = result.options;
     run.shading = result.report;
     run.seconds.insert(run.seconds.end(), result.report.seconds.begin(), result.report.seconds.end());

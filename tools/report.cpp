@@ -211,7 +211,9 @@ std::string TableText(CommandLine const& line, RunSummary const& run) {
     table.Add("vertices", CountText(report.vertices));
     table.Add("faces", CountText(report.faces));
     table.Add("values", CountText(report.values));
-    table.Add("extraordinary", ValenceText(report.extraordinary));
+    // Triangles of the limit surface know nothing of the mesh's vertices.
+    bool const isMesh = !line.tessellation;
+    if (isMesh) table.Add("extraordinary", ValenceText(report.extraordinary));
     if (report.boundaryVertices > 0) {
         table.Add("boundary vertices", CountText(report.boundaryVertices));
         table.Add("boundary extraordinary", ValenceText(report.boundaryExtraordinary));
@@ -220,17 +222,23 @@ std::string TableText(CommandLine const& line, RunSummary const& run) {
         table.Add("non-manifold", CountText(report.nonManifoldVertices) + " vertices, " +
                                       CountText(report.nonManifoldEdges) + " edges");
     }
-    table.Add("sharp vertices", CountText(report.sharpVertices));
-    table.Add("darts", CountText(report.darts));
+    if (isMesh) {
+        table.Add("sharp vertices", CountText(report.sharpVertices));
+        table.Add("darts", CountText(report.darts));
+    }
     table.Add("vertices with weight", CountText(report.verticesWithWeight));
     table.Add("angle N_L to N_B", AngleText(run));
     table.Add("zero normals", CountText(report.zeroNormals));
     if (report.zeroStartNormals > 0) table.Add("zero start normals", CountText(report.zeroStartNormals));
-    table.Add("fallback normals", CountText(report.fallbackNormals));
-    table.Add("averaged normals", CountText(report.averagedNormals));
+    if (isMesh) {
+        table.Add("fallback normals", CountText(report.fallbackNormals));
+        table.Add("averaged normals", CountText(report.averagedNormals));
+    }
     table.Add("opposed normals", CountText(report.opposedNormals));
-    table.Add("smallest |N_S|",
-              report.minSubdividedLength < 0 ? "none" : Format("%.4g", report.minSubdividedLength));
+    if (isMesh) {
+        table.Add("smallest |N_S|",
+                  report.minSubdividedLength < 0 ? "none" : Format("%.4g", report.minSubdividedLength));
+    }
 
     if (run.check) {
         table.Add("check", (run.check->Passes(line.tolerance) ? "passed" : "FAILED") +
@@ -266,19 +274,21 @@ std::string JsonText(CommandLine const& line, RunSummary const& run) {
     json["vertices"] = report.vertices;
     json["faces"] = report.faces;
     json["values"] = report.values;
-    json["extraordinary"] = ValenceJson(report.extraordinary);
-    json["boundary_extraordinary"] = ValenceJson(report.boundaryExtraordinary);
-    json["sharp_vertices"] = report.sharpVertices;
-    json["darts"] = report.darts;
-    json["boundary_vertices"] = report.boundaryVertices;
-    json["non_manifold_vertices"] = report.nonManifoldVertices;
-    json["non_manifold_edges"] = report.nonManifoldEdges;
+    // Triangles of the limit surface know nothing of the mesh's vertices.
+    auto const ofMesh = [&](Json const& value) { return line.tessellation ? Json() : value; };
+    json["extraordinary"] = ofMesh(ValenceJson(report.extraordinary));
+    json["boundary_extraordinary"] = ofMesh(ValenceJson(report.boundaryExtraordinary));
+    json["sharp_vertices"] = ofMesh(report.sharpVertices);
+    json["darts"] = ofMesh(report.darts);
+    json["boundary_vertices"] = ofMesh(report.boundaryVertices);
+    json["non_manifold_vertices"] = ofMesh(report.nonManifoldVertices);
+    json["non_manifold_edges"] = ofMesh(report.nonManifoldEdges);
     json["vertices_with_weight"] = report.verticesWithWeight;
     json["subdivided_values"] = report.subdividedValues;
-    json["zero_start_normals"] = report.zeroStartNormals;
+    json["zero_start_normals"] = ofMesh(report.zeroStartNormals);
     json["zero_normals"] = report.zeroNormals;
-    json["fallback_normals"] = report.fallbackNormals;
-    json["averaged_normals"] = report.averagedNormals;
+    json["fallback_normals"] = ofMesh(report.fallbackNormals);
+    json["averaged_normals"] = ofMesh(report.averagedNormals);
     json["opposed_normals"] = report.opposedNormals;
     json["min_subdivided_length"] = report.minSubdividedLength < 0 ? Json() : Json(report.minSubdividedLength);
     json["mean_angle_deg"] = report.meanAngle;

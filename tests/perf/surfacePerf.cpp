@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// What evaluating a LimitSurface costs beside OpenSubdiv's Bfr, on the same random points of all faces of a mesh, side
-// by side in one run: P, du and dv by Bfr; those and N_L, N_S, b and N_B by ours.
+// What evaluating a LimitSurface costs beside OpenSubdiv's Bfr, on the same random points of all faces of a mesh,
+// side by side in one run: P, du and dv by Bfr; those and N_L, N_S, b and N_B by ours.
 
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 
