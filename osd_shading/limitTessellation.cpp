@@ -33,7 +33,8 @@ void check(TessellationOptions const& options) {
     auto const fail = [](std::string const& text) { throw InvalidOptions("tessellation: " + text); };
     auto const checkRate = [&](int rate, char const* name) {
         if (rate >= 1 && rate <= kMostSegments) return;
-        fail(std::string(name) + " is " + std::to_string(rate) + "; it must be 1 to " + std::to_string(kMostSegments));
+        fail(std::string(name) + " is " + std::to_string(rate) + "; it must be 1 to " +
+             std::to_string(kMostSegments));
     };
     auto const checkSize = [&](double size, char const* name) {
         if (size > 0 && std::isfinite(size)) return;
@@ -43,7 +44,8 @@ void check(TessellationOptions const& options) {
     checkRate(options.maxRate, "maxRate");
     checkSize(options.maxAngle, "maxAngle");
     checkSize(options.maxPixels, "maxPixels");
-    if (options.numThreads < 0) fail("numThreads is " + std::to_string(options.numThreads) + "; it must be 0 or more");
+    if (options.numThreads < 0)
+        fail("numThreads is " + std::to_string(options.numThreads) + "; it must be 0 or more");
     if (options.width < 1 || options.height < 1) fail("the screen has no pixels; give width and height");
     for (double const x : options.viewProjection) {
         if (!std::isfinite(x)) fail("viewProjection is not finite");
@@ -145,7 +147,8 @@ private:
         if (_scheme == Sdc::SCHEME_CATMARK && layout.GetFaceSize() == 4) {
             for (int i = 0; i <= kSamples; ++i) {
                 Real const t = static_cast<Real>(i) / kSamples;
-                line[index(i)] = edge % 2 == 0 ? SurfaceParameter<Real>{t, Real(0.5)} : SurfaceParameter<Real>{Real(0.5), t};
+                line[index(i)] =
+                    edge % 2 == 0 ? SurfaceParameter<Real>{t, Real(0.5)} : SurfaceParameter<Real>{Real(0.5), t};
             }
             rate = std::max(rate, measure());
         }
@@ -183,7 +186,8 @@ private:
                 ++numBehind;
                 continue;
             }
-            double const x = 0.5 * _options.width * clip[0] / clip[3], y = 0.5 * _options.height * clip[1] / clip[3];
+            double const x = 0.5 * _options.width * clip[0] / clip[3],
+                         y = 0.5 * _options.height * clip[1] / clip[3];
             if (i > 0) length += std::hypot(x - lastX, y - lastY);
             lastX = x;
             lastY = y;
@@ -206,7 +210,8 @@ private:
         auto const bytes = static_cast<std::uint64_t>(std::min(count * perPoint, 9e18));
         std::string const takes = "the tessellation would take about " + std::to_string(bytes) + " bytes";
         if (count > std::numeric_limits<int>::max() / 8) {
-            throw MemoryLimitExceeded(takes + " and more points than 32-bit indices can number; use lower rates", bytes);
+            throw MemoryLimitExceeded(takes + " and more points than 32-bit indices can number; use lower rates",
+                                      bytes);
         }
         std::uint64_t const limit = _surface.Options().execution.memoryLimit;
         if (limit != 0 && bytes > limit) {
@@ -230,7 +235,8 @@ private:
         cut.GetFacets(made.facets.data());
         made.numBoundary = cut.GetNumBoundaryCoords();
         std::vector<SurfaceParameter<Real>> parameters;
-        for (std::size_t i = 0; i < coordinates.size(); i += 2) parameters.push_back({coordinates[i], coordinates[i + 1]});
+        for (std::size_t i = 0; i < coordinates.size(); i += 2)
+            parameters.push_back({coordinates[i], coordinates[i + 1]});
         made.points.resize(parameters.size());
         _surface.Evaluate(face, parameters, made.points.data());
     }
@@ -408,8 +414,8 @@ ShadingResult<Real> TessellateLimitSurface(LimitSurface<Real> const& surface, Te
     return Tessellator<Real>(surface, options).Run();
 }
 
-#define OSD_SHADING_INSTANTIATE(Real)                                                                         \
-    template OSD_SHADING_API ShadingResult<Real> TessellateLimitSurface(LimitSurface<Real> const&,           \
+#define OSD_SHADING_INSTANTIATE(Real)                                                              \
+    template OSD_SHADING_API ShadingResult<Real> TessellateLimitSurface(LimitSurface<Real> const&, \
                                                                         TessellationOptions const&);
 OSD_SHADING_INSTANTIATE(float)
 OSD_SHADING_INSTANTIATE(double)

@@ -20,11 +20,11 @@ enum class TessellationKind {
 /// How finely a limit surface is cut into triangles.
 struct TessellationOptions {
     TessellationKind kind = TessellationKind::Uniform;  ///< what decides
-    int rate = 8;           ///< Uniform: segments of each edge, 1 to 1024
-    double maxAngle = 10;   ///< Curvature: degrees between normals, or directions, of neighbouring points; above 0
-    double maxPixels = 8;   ///< Screen: length of a segment, above 0
-    int maxRate = 64;       ///< Curvature and Screen: segments of an edge at most, 1 to 1024
-    int numThreads = 1;     ///< 1 or more; 0: as many as the machine has. The result is the same
+    int rate = 8;                                       ///< Uniform: segments of each edge, 1 to 1024
+    double maxAngle = 10;  ///< Curvature: degrees between normals, or directions, of neighbouring points; above 0
+    double maxPixels = 8;  ///< Screen: length of a segment, above 0
+    int maxRate = 64;      ///< Curvature and Screen: segments of an edge at most, 1 to 1024
+    int numThreads = 1;    ///< 1 or more; 0: as many as the machine has. The result is the same
 
     /// Screen: from model to clip coordinates, column by column as OpenGL has it, and the screen in pixels.
     std::array<double, 16> viewProjection{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -34,9 +34,10 @@ struct TessellationOptions {
 
 /// Cuts a limit surface into triangles: adaptive, and watertight, as both faces at an edge take its points from it.
 ///
-/// Control faces are cut as Bfr::Tessellation does, with a rate for each edge. Of the result, positions, normals, weights,
-/// faces, values and counts are set; there is one value for each side of a crease, as in ShadeSubdivision, and values of
-/// a vertex whose normals agree (to 1e-6, in float 1e-4) are one. Tags of vertices and crease edges are not found.
+/// Control faces are cut as Bfr::Tessellation does, with a rate for each edge. Of the result, positions, normals,
+/// weights, faces, values and counts are set; there is one value for each side of a crease, as in ShadeSubdivision,
+/// and values of a vertex whose normals agree (to 1e-6, in float 1e-4) are one. Tags of vertices and crease edges
+/// are not found.
 ///
 /// ERRORS: InvalidOptions, MemoryLimitExceeded (by the surface's `execution.memoryLimit`); nothing else but
 /// std::bad_alloc.
@@ -44,9 +45,9 @@ struct TessellationOptions {
 template <typename Real>
 ShadingResult<Real> TessellateLimitSurface(LimitSurface<Real> const& surface, TessellationOptions const& options);
 
-#define OSD_SHADING_DECLARE(Real)                                                    \
-    extern template OSD_SHADING_API ShadingResult<Real> TessellateLimitSurface(      \
-        LimitSurface<Real> const&, TessellationOptions const&);
+#define OSD_SHADING_DECLARE(Real)                                                                         \
+    extern template OSD_SHADING_API ShadingResult<Real> TessellateLimitSurface(LimitSurface<Real> const&, \
+                                                                               TessellationOptions const&);
 OSD_SHADING_DECLARE(float)
 OSD_SHADING_DECLARE(double)
 #undef OSD_SHADING_DECLARE

@@ -84,7 +84,8 @@ TEST(LimitTessellation, HasNoGapsAndTheShapesEulerNumberWhateverTheRates) {
             std::set<int> used(shape.faceVertices.begin(), shape.faceVertices.end());
             return static_cast<int>(used.size()) - level.GetNumEdges() + level.GetNumFaces();
         }();
-        for (TessellationOptions const& options : {Uniform(1), Uniform(3), Uniform(4), Curvature(7), Curvature(25)}) {
+        for (TessellationOptions const& options :
+             {Uniform(1), Uniform(3), Uniform(4), Curvature(7), Curvature(25)}) {
             ShadingResult<double> const result = Cut<double>(shape, options);
             auto const edges = EdgesOf(result);
             int numDirected = 0;
@@ -131,8 +132,9 @@ TEST(LimitTessellation, CutsFinerWhereTheSurfaceTurns) {
         double largest = 0;
         for (std::size_t i = 0; i < result.faceValues.size(); i += 3) {
             for (std::size_t k = 0; k < 3; ++k) {
-                largest = std::max(largest, AngleBetween(result.blendedNormals[Index(result.faceValues[i + k])],
-                                                         result.blendedNormals[Index(result.faceValues[i + (k + 1) % 3])]));
+                largest = std::max(largest,
+                                   AngleBetween(result.blendedNormals[Index(result.faceValues[i + k])],
+                                                result.blendedNormals[Index(result.faceValues[i + (k + 1) % 3])]));
             }
         }
         return largest * 180 / 3.14159265358979323846;
@@ -193,7 +195,8 @@ TEST(LimitTessellation, RefusesInWords) {
     EXPECT_NE(wordsOf([](TessellationOptions& o) { o.rate = 1025; }).find("1 to 1024"), std::string::npos);
     EXPECT_NE(wordsOf([](TessellationOptions& o) { o.maxRate = -1; }).find("maxRate"), std::string::npos);
     EXPECT_NE(wordsOf([](TessellationOptions& o) { o.maxAngle = 0; }).find("maxAngle"), std::string::npos);
-    EXPECT_NE(wordsOf([](TessellationOptions& o) { o.maxPixels = std::nan(""); }).find("maxPixels"), std::string::npos);
+    EXPECT_NE(wordsOf([](TessellationOptions& o) { o.maxPixels = std::nan(""); }).find("maxPixels"),
+              std::string::npos);
     EXPECT_NE(wordsOf([](TessellationOptions& o) { o.width = 0; }).find("no pixels"), std::string::npos);
     EXPECT_NE(wordsOf([](TessellationOptions& o) { o.viewProjection[3] = std::nan(""); }).find("not finite"),
               std::string::npos);
@@ -206,8 +209,9 @@ TEST(LimitTessellation, RefusesInWords) {
     options.execution.memoryLimit = 10000;
     Shape const cube = shapes::Cube();
     LimitSurface<double> const surface(cube.Mesh(), input, options);
-    EXPECT_NE(ErrorOf<MemoryLimitExceeded>([&] { TessellateLimitSurface(surface, Uniform(64)); }).find("lower rates"),
-              std::string::npos);
+    EXPECT_NE(
+        ErrorOf<MemoryLimitExceeded>([&] { TessellateLimitSurface(surface, Uniform(64)); }).find("lower rates"),
+        std::string::npos);
 }
 
 }  // namespace

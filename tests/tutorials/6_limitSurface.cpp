@@ -44,7 +44,8 @@ int main() {
     options.limits.normals = osd_shading::LimitNormalKind::Exact;
     osd_shading::LimitSurface<double> const surface(mesh, input, options);
 
-    // Face 1 is the bottom, face 0 the top; u runs from a face's vertex 0 to 1, v from 0 to 3, as in OpenSubdiv's Bfr.
+    // Face 1 is the bottom, face 0 the top; u runs from a face's vertex 0 to 1, v from 0 to 3, as in OpenSubdiv's
+    // Bfr.
     osd_shading::SurfacePoint<double> const p = surface.Evaluate(1, 0.25, 0.4);
     std::printf("bottom at (0.25, 0.4), b = %.4f\n", p.blendWeight);
     print("P  ", p.position);
