@@ -78,8 +78,8 @@ Shape Star(bool isCatmark, int n) {
     return shape.Jitter(0.1, static_cast<std::uint32_t>(n));
 }
 
-/// How far the derivatives of a normal, by the characteristic parametrisation, differ round a vertex: what is left of
-/// a linear fit to the normal at points that are some `radius` away, over the largest change that it explains.
+/// How far the derivatives of a normal, by the characteristic parametrisation, differ round a vertex: what is left
+/// of a linear fit to the normal at points that are some `radius` away, over the largest change that it explains.
 struct Disagreement {
     double limit = 0, blended = 0;
 };
@@ -127,9 +127,10 @@ Disagreement MeasureAround(LimitSurface<double> const& surface, int n, int depth
 }
 
 TEST(NormalSmoothness, BlendedNormalsHaveOneDerivativeAtExtraordinaryVerticesAndLimitNormalsNone) {
-    std::printf("%-14s %7s | %10s %10s %10s | %10s %10s %10s\n", "disagreement", "of", "N_L", "", "", "N_B", "", "");
-    std::printf("%-14s %7s | %10s %10s %10s | %10s %10s %10s\n", "of derivatives", "valence", "at 1e-2", "1e-4", "1e-6",
-                "at 1e-2", "1e-4", "1e-6");
+    std::printf("%-14s %7s | %10s %10s %10s | %10s %10s %10s\n", "disagreement", "of", "N_L", "", "", "N_B", "",
+                "");
+    std::printf("%-14s %7s | %10s %10s %10s | %10s %10s %10s\n", "of derivatives", "valence", "at 1e-2", "1e-4",
+                "1e-6", "at 1e-2", "1e-4", "1e-6");
     for (bool const isCatmark : {true, false}) {
         for (int n = 3; n <= 12; ++n) {
             Shape const shape = Star(isCatmark, n);
@@ -143,7 +144,8 @@ TEST(NormalSmoothness, BlendedNormalsHaveOneDerivativeAtExtraordinaryVerticesAnd
             double const lambda = isCatmark ? (c + 5 + std::sqrt((c + 1) * (c + 9))) / 16 : (3 + 2 * c) / 8;
             Disagreement found[3];
             for (int i = 0; i < 3; ++i) {
-                int const depth = static_cast<int>(std::lround(std::log(std::pow(10, -2 * (i + 1))) / std::log(lambda)));
+                int const depth =
+                    static_cast<int>(std::lround(std::log(std::pow(10, -2 * (i + 1))) / std::log(lambda)));
                 found[i] = MeasureAround(surface, n, depth);
             }
             std::printf("%-14s %7d | %10.2g %10.2g %10.2g | %10.2g %10.2g %10.2g\n",

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opensubdiv/bfr/parameterization.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "osd_shading/limitSurface.h"
+#include "osd_shading/subdivisionShading.h"
+#include "osd_shading/vectorMath.h"
+#include "tests/testHelpers.h"
+
+/// A limit surface beside uniform shading, and from both sides of its edges.
+namespace osd_shading::tests {
+
+namespace Bfr = OpenSubdiv::OPENSUBDIV_VERSION::Bfr;
+
+/// A shape with its surface.
+template <typename Real>
+struct Surface {
+    std::vector<Vec3<Real>> points;
+    std::vector<Vec3<Real>> normals;  // per vertex, where the options ask for them
+    LimitSurface<Real> limit;
+
+    Surface(Shape const& shape, ShadingOptions const& options)
+        : points(PointsOf<Real>(shape)), normals(points), limit(shape.Mesh(), Input(options), options) {}
+    ShadingInput<Real> Input(ShadingOptions const& options) const {
+        ShadingInput<Real> input;
+        input.positions = points;
+        if (options.startNormals.kind == StartNormalKind::User) input.vertexNormals = normals;
+        return input;
+    }
+};
+
+/// Where the corners of the last level's faces lie on the control faces.
+struct Location {
+    int face;
+    double u, v;
+};
+inline std::vector<Location> LocationsOf(RefinedTopology const& topology) {
+    struct Corners {
+        int base;
+        double at[4][2];
+    };
+    int const size = topology.IsCatmark() ? 4 : 3;
+    std::vector<Corners> here, next;
+    for (int f = 0; f < topology.Level(0).GetNumFaces(); ++f) {
+        Corners corners{f, {}};
+        int const numVertices = topology.Level(0).GetFaceVertices(f).size();
+        Bfr::Parameterization const parametrization(topology.Scheme(), numVertices);
+        for (int i = 0; i < size && !parametrization.HasSubFaces(); ++i) {
+            parametrization.GetVertexCoord(i, corners.at[i]);
+        }
+        here.push_back(corners);
+    }
+    for (int level = 0; level < topology.LastLevel(); ++level) {
+        next.assign(Index(topology.Level(level + 1).GetNumFaces()), {});
+        for (int f = 0; f < topology.Level(level).GetNumFaces(); ++f) {
+            Far::ConstIndexArray const children = topology.Level(level).GetFaceChildFaces(f);
+            int const numVertices = topology.Level(level).GetFaceVertices(f).size();
+            Bfr::Parameterization const parametrization(topology.Scheme(), numVertices);
+            Corners const& parent = here[Index(f)];
+            for (int c = 0; c < children.size(); ++c) {
+                Corners& child = next[Index(children[c])];
+                child.base = parent.base;
+                if (parametrization.HasSubFaces()) {
+                    double const square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+                    for (int i = 0; i < 4; ++i) {
+                        parametrization.ConvertNormalizedSubFaceToCoord(c, square[i], child.at[i]);
+                    }
+                    continue;
+                }
+                auto const middle = [&](int i, int j, double(&at)[2]) {
+                    at[0] = (parent.at[i][0] + parent.at[j][0]) / 2;
+                    at[1] = (parent.at[i][1] + parent.at[j][1]) / 2;
+                };
+                if (size == 3 && c == 3) {
+                    middle(1, 2, child.at[0]);
+                    middle(2, 0, child.at[1]);
+                    middle(0, 1, child.at[2]);
+                    continue;
+                }
+                for (int i = 0; i < size; ++i) {
+                    if (size == 4 && (i + 2) % 4 == c) {
+                        middle(0, 2, child.at[i]);
+                    } else {
+                        middle(c, i, child.at[i]);
+                    }
+                }
+            }
+        }
+        here.swap(next);
+    }
+    std::vector<Location> locations;
+    for (Corners const& corners : here) {
+        for (int i = 0; i < size; ++i) locations.push_back({corners.base, corners.at[i][0], corners.at[i][1]});
+    }
+    return locations;
+}
+
+/// Largest differences from the uniform result at the points of the last level.
+struct Differences {
+    double position = 0, limitNormal = 0, subdivided = 0, blended = 0, weight = 0;
+    std::string where;
+};
+inline Differences CompareWithUniform(Shape const& shape, ShadingOptions const& options) {
+    Surface<double> const surface(shape, options);
+    ShadingResult<double> const result =
+        ShadeSubdivision(shape.Mesh(), surface.Input(options), surface.limit.Options());
+    RefinedTopology const topology(shape.Mesh(), surface.limit.Options().level);
+    std::vector<Location> const locations = LocationsOf(topology);
+    CreaseRegions const regions(topology, topology.LastLevel(), 1);
+    Differences differences;
+    double size = 0;
+    for (double const x : shape.positions) size = std::max(size, std::fabs(x));
+    for (std::size_t i = 0; i < locations.size(); ++i) {
+        SurfacePoint<double> const point =
+            surface.limit.Evaluate(locations[i].face, locations[i].u, locations[i].v);
+        auto const value = Index(regions.CornerValues()[i]);
+        auto const vertex = Index(result.valueVertices[value]);
+        auto const note = [&](double& largest, double difference, char const* what) {
+            if (difference > 1e-10) {
+                differences.where = std::string(what) + " at face " + std::to_string(locations[i].face) + " (" +
+                                    std::to_string(locations[i].u) + ", " + std::to_string(locations[i].v) +
+                                    "), kind " + std::to_string(int(result.vertexTags[vertex].kind)) + " valence " +
+                                    std::to_string(result.vertexTags[vertex].valence);
+            }
+            largest = std::max(largest, difference);
+        };
+        note(differences.position, Distance(point.position, result.positions[vertex]) / size, "position");
+        note(differences.weight, std::fabs(point.blendWeight - result.blendWeights[value]), "weight");
+        // Fallbacks are those of the last level's mesh there, and of larger faces here; and N_S is not at hand
+        // where b is zero.
+        double const lengths = Length(point.du) * Length(point.dv);
+        if (!IsZero(point.du) &&
+            Length(Cross(point.du, point.dv)) <= std::max(1e-6 * lengths, 1e-9 * size * size)) {
+            continue;
+        }
+        if (IsZero(point.limitNormal) != IsZero(result.limitNormals[value])) continue;
+        note(differences.limitNormal, Distance(point.limitNormal, result.limitNormals[value]), "N_L");
+        if (result.blendWeights[value] > 1e-12) {
+            note(differences.subdivided, Distance(point.subdividedNormal, result.subdividedNormals[value]), "N_S");
+        }
+        note(differences.blended, Distance(point.blendedNormal, result.blendedNormals[value]), "N_B");
+    }
+    return differences;
+}
+
+/// Calls `visit(a, b, isSharp, edge, t)` with the points of the two faces at points of each edge between two faces.
+template <typename Visit>
+void ForEachEdge(Surface<double> const& surface, Shape const& shape, Visit const& visit) {
+    RefinedTopology const topology(shape.Mesh(), 0);
+    Far::TopologyLevel const& level = topology.Level(0);
+    for (int e = 0; e < level.GetNumEdges(); ++e) {
+        Far::ConstIndexArray const faces = level.GetEdgeFaces(e);
+        if (faces.size() != 2 || level.IsEdgeNonManifold(e)) continue;
+        for (double const t : {0.0, 1e-6, 0.03, 0.25, 0.5, 0.7, 1 - 1e-9}) {
+            SurfacePoint<double> points[2];
+            for (int side = 0; side < 2; ++side) {
+                int const face = faces[side], edge = level.GetFaceEdges(face).FindIndex(e);
+                Far::ConstIndexArray const vertices = level.GetFaceVertices(face);
+                bool const isForward = vertices[edge] == level.GetEdgeVertices(e)[0];
+                double uv[2];
+                Bfr::Parameterization(topology.Scheme(), vertices.size())
+                    .GetEdgeCoord(edge, isForward ? t : 1 - t, uv);
+                points[side] = surface.limit.Evaluate(face, uv[0], uv[1]);
+            }
+            visit(points[0], points[1], level.GetEdgeSharpness(e) > 0, e, t);
+        }
+    }
+}
+
+}  // namespace osd_shading::tests
