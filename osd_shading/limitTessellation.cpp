@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
-#include <limits>
 #include <string>
 #include <thread>
 #include <utility>
@@ -209,7 +208,8 @@ private:
         double const perPoint = 2 * sizeof(SurfacePoint<Real>) + 100;
         auto const bytes = static_cast<std::uint64_t>(std::min(count * perPoint, 9e18));
         std::string const takes = "the tessellation would take about " + std::to_string(bytes) + " bytes";
-        if (count > std::numeric_limits<int>::max() / 8) {
+        constexpr double kMostPoints = 250e6;  // a point has up to 6 corners of triangles
+        if (count > kMostPoints) {
             throw MemoryLimitExceeded(takes + " and more points than 32-bit indices can number; use lower rates",
                                       bytes);
         }

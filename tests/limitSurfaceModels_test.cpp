@@ -24,8 +24,8 @@ std::vector<Shape> ShapesOf(std::string const& file) {
     try {
         io::Model const model = io::ReadObj(file);
         for (Sdc::SchemeType const scheme : {Sdc::SCHEME_CATMARK, Sdc::SCHEME_LOOP}) {
-            bool const areTriangles = std::all_of(model.faceSizes.begin(), model.faceSizes.end(),
-                                                  [](int size) { return size == 3; });
+            bool const areTriangles =
+                std::all_of(model.faceSizes.begin(), model.faceSizes.end(), [](int size) { return size == 3; });
             if (scheme == Sdc::SCHEME_LOOP && !areTriangles) continue;
             Shape shape;
             shape.name = model.name + (scheme == Sdc::SCHEME_LOOP ? ", loop" : ", catmark");

@@ -201,6 +201,7 @@ private:
     }
     std::vector<std::uint32_t> linesOf(int level, std::vector<FaceCorner> const& at) {
         std::vector<std::uint32_t> lines;
+        lines.reserve(at.size());
         for (FaceCorner const& corner : at) lines.push_back(lineOf(level, corner));
         return lines;
     }

@@ -269,7 +269,7 @@ template <typename LineAt>
 void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool hasWeight, std::uint16_t phantoms,
                                      Real u, Real v, Real scale, bool hasSecond, Vec3<Real> const& origin,
                                      SurfacePoint<Real>& point) const {
-    PatchBasis<Real> basis;
+    PatchBasis<Real> basis;  // NOLINT(cppcoreguidelines-pro-type-member-init): all that is read is written first
     int count = kTrianglePoints;
     if (_isCatmark) {
         count = kQuadPoints;
@@ -343,8 +343,7 @@ void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool
     point.dvv = (scale * scale) * dvv;
     // N_B = m / |m|, m = (1 - b^p) N_L + b^p N_S.
     Real const share = static_cast<Real>(std::pow(static_cast<double>(b), exponent));
-    Real const shareByB =
-        b > 0 && b < 1 ? static_cast<Real>(exponent * std::pow(static_cast<double>(b), exponent - 1)) : Real(0);
+    double const shareByB = b > 0 ? exponent * std::pow(static_cast<double>(b), exponent - 1) : 0;
     Vec3<Real> const mixed = (1 - share) * point.limitNormal + share * point.subdividedNormal;
     Vec3<Real> const crossBy[2] = {Cross(duu, dv) + Cross(du, duv), Cross(duv, dv) + Cross(du, dvv)};
     Vec3<Real>* const results[2] = {&point.normalDu, &point.normalDv};
@@ -352,7 +351,11 @@ void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool
         Vec3<Real> change = (1 - share) * derivativeOfUnit(point.limitNormal, crossLength, crossBy[i]);
         if (b > 0) {
             change += share * derivativeOfUnit(point.subdividedNormal, subdividedLength, vectorAt(1 + i, 3));
-            change += (shareByB * sums.v[1 + i][6]) * (point.subdividedNormal - point.limitNormal);
+            // With p < 1 it has no bound where b begins.
+            constexpr double kLargest = 1e15;
+            double const shareBy = shareByB * static_cast<double>(sums.v[1 + i][6]);
+            change += static_cast<Real>(std::min(std::max(shareBy, -kLargest), kLargest)) *
+                      (point.subdividedNormal - point.limitNormal);
         }
         *results[i] = scale * derivativeOfUnit(point.blendedNormal, Length(mixed), change);
     }
