@@ -102,16 +102,18 @@ inline std::vector<Location> LocationsOf(RefinedTopology const& topology) {
     return locations;
 }
 
-/// Largest differences from the uniform result at the points of the last level.
+/// Largest differences from the uniform result at the points of the last level, or of one `levelsBelow` further
+/// down.
 struct Differences {
     double position = 0, limitNormal = 0, subdivided = 0, blended = 0, weight = 0;
     std::string where;
 };
-inline Differences CompareWithUniform(Shape const& shape, ShadingOptions const& options) {
+inline Differences CompareWithUniform(Shape const& shape, ShadingOptions const& options, int levelsBelow = 0) {
     Surface<double> const surface(shape, options);
-    ShadingResult<double> const result =
-        ShadeSubdivision(shape.Mesh(), surface.Input(options), surface.limit.Options());
-    RefinedTopology const topology(shape.Mesh(), surface.limit.Options().level);
+    ShadingOptions uniform = surface.limit.Options();
+    uniform.level += levelsBelow;
+    ShadingResult<double> const result = ShadeSubdivision(shape.Mesh(), surface.Input(options), uniform);
+    RefinedTopology const topology(shape.Mesh(), uniform.level);
     std::vector<Location> const locations = LocationsOf(topology);
     CreaseRegions const regions(topology, topology.LastLevel(), 1);
     Differences differences;
