@@ -17,9 +17,11 @@
 #include "viewer/builtInModels.h"
 #include "viewer/commandLine.h"
 #include "viewer/edgeChains.h"
+#include "viewer/keys.h"
 #include "viewer/offscreen.h"
 #include "viewer/picking.h"
 #include "viewer/sceneFields.h"
+#include "viewer/windowLayout.h"
 #include "viewer/workbench.h"
 
 namespace osd_shading::viewer {
@@ -104,6 +106,56 @@ TEST(ViewerCamera, ZoomKeepsThePointUnderTheCursor) {
     EXPECT_NEAR(after->z, before->z / 2, 1e-4F);
 }
 
+// --- The window's layout
+// ------------------------------------------------------------------------------------------
+
+TEST(WindowLayout, OfADenseScreenHasTheSameShareOfPanelAndSceneInMorePixels) {
+    ViewOptions view;
+    view.split = SplitKind::SideBySide;
+    WindowLayout const plain({900, 600}, {900, 600}, 1, 300);
+    EXPECT_EQ(plain.Left(), 300);
+    EXPECT_EQ(plain.SceneSize(), glm::ivec2(600, 600));
+    // Twice as many pixels as units: letters of twice the pixels are as large in units as they were.
+    WindowLayout const dense({900, 600}, {1800, 1200}, 2, 300);
+    EXPECT_EQ(dense.Left(), 300);
+    EXPECT_EQ(dense.UnitScale(), 1);
+    EXPECT_EQ(dense.PixelScale(), 2);
+    EXPECT_EQ(dense.SceneSize(), glm::ivec2(1200, 1200));
+    // Units that are pixels, and letters twice as large: so is the panel.
+    WindowLayout const large({1800, 1200}, {1800, 1200}, 2, 300);
+    EXPECT_EQ(large.Left(), 600);
+    EXPECT_EQ(large.UnitScale(), 2);
+    EXPECT_EQ(large.SceneSize(), glm::ivec2(1200, 1200));
+
+    // The same place of the right view under the cursor.
+    for (auto const& [layout, cursor] : {std::pair(dense, glm::vec2(700, 150)), {large, glm::vec2(1400, 300)}}) {
+        auto const place = layout.PlaceOf(view, cursor);
+        ASSERT_TRUE(place);
+        EXPECT_EQ(place->at, glm::vec2(200, 300));
+        EXPECT_EQ(place->size, glm::vec2(600, 1200));
+    }
+    EXPECT_FALSE(dense.PlaceOf(view, {299, 150}));
+    EXPECT_FALSE(dense.PlaceOf(view, {901, 150}));
+}
+
+TEST(WindowLayout, SplitLineAndItsPlaceBelongTogether) {
+    WindowLayout const layout({900, 600}, {1800, 1200}, 2, 300);
+    EXPECT_EQ(layout.SplitX(0.25F), 450);
+    EXPECT_EQ(layout.SplitPosition(450), 0.25F);
+    EXPECT_EQ(layout.SplitPosition(10), 0);
+    EXPECT_EQ(layout.SplitPosition(2000), 1);
+}
+
+TEST(WindowLayout, OfATinyOrMinimisedWindowStillLeavesAPixelToTheScene) {
+    for (glm::ivec2 const size : {glm::ivec2(0, 0), {1, 1}, {200, 100}}) {
+        WindowLayout const layout(size, size, 1, 300);
+        EXPECT_EQ(layout.IsVisible(), size.x > 0);
+        EXPECT_GE(layout.SceneSize().x, 1);
+        EXPECT_GE(layout.SceneSize().y, 1);
+        EXPECT_LE(layout.Left(), static_cast<float>(size.x));
+    }
+}
+
 // --- Settings ---------------------------------------------------------------------------------------------------
 
 TEST(ViewerSettings, TheirTextGivesTheSameSettings) {
@@ -154,7 +206,13 @@ TEST(ViewerSettings, TheirTextGivesTheSameSettings) {
                                             "--crease-angle",
                                             "30",
                                             "--threads",
-                                            "2"};
+                                            "2",
+                                            "--precision",
+                                            "double",
+                                            "--memory-limit",
+                                            "2G",
+                                            "--screenshot-multiple",
+                                            "3"};
     auto const given = ParseCommandLine(words);
     ASSERT_TRUE(given);
     std::string const text = SettingsText(given->settings);
@@ -164,6 +222,9 @@ TEST(ViewerSettings, TheirTextGivesTheSameSettings) {
     EXPECT_EQ(SettingsText(read->settings), text);
     EXPECT_EQ(read->settings.view, given->settings.view);
     EXPECT_EQ(read->settings.camera.camera, given->settings.camera.camera);
+    EXPECT_EQ(read->settings.run, given->settings.run);
+    EXPECT_EQ(read->settings.run.memoryLimit, std::uint64_t{2} << 30);
+    EXPECT_EQ(read->settings.screenshotMultiple, 3);
     EXPECT_EQ(read->settings.shading.exponent, 2.5);
     EXPECT_EQ(read->settings.mesh.creaseAngle, 30.0);
 }
@@ -550,6 +611,74 @@ TEST_F(WorkbenchTest, SavesCageAndResultAsTheyAreShown) {
     EXPECT_NE(bench->Message().find("ends in .ply"), std::string::npos);
     bench->SaveCage(folder.File("no/cage.obj"));
     EXPECT_NE(bench->Message().find("no/cage.obj"), std::string::npos);
+}
+
+TEST_F(WorkbenchTest, SavesResultsInDoubleUnlessFloatIsAskedFor) {
+    TemporaryFolder const folder;
+    auto const bench = open("hat", 1);
+    auto const save = [&](std::optional<tool::Precision> precision) {
+        bench->settings.run.precision = precision;
+        bench->SaveResult(folder.File("result.obj"));
+        settle(*bench);
+        return ioFiles::ReadBytes(folder.File("result.obj"));
+    };
+    // Each number is written with the digits that it has.
+    std::string const byDefault = save(std::nullopt), exact = save(tool::Precision::Double),
+                      single = save(tool::Precision::Float);
+    EXPECT_EQ(byDefault, exact);
+    EXPECT_LT(single.size(), exact.size() * 4 / 5);
+}
+
+TEST_F(WorkbenchTest, WhatTakesMoreThanTheMemoryLimitIsSaidAndTheOldOneStays) {
+    auto const bench = open("mug");
+    auto const scene = bench->CurrentScene();
+    bench->settings.run.memoryLimit = 1 << 20;
+    bench->settings.shading.level = 6;
+    bench->Apply();
+    settle(*bench);
+    EXPECT_NE(bench->Message().find("1048576"), std::string::npos) << bench->Message();
+    EXPECT_EQ(bench->CurrentScene(), scene);
+}
+
+TEST_F(WorkbenchTest, OpensTheFirstOfTheFilesThatAreDropped) {
+    TemporaryFolder const folder;
+    auto const bench = open("mug");
+    bench->OpenDropped({});
+    settle(*bench);
+    EXPECT_EQ(bench->CurrentDocument()->Name(), "mug");
+    std::string const model = std::string(OSD_SHADING_MODELS) + "/hat.obj";
+    bench->OpenDropped({model, "no such file"});
+    settle(*bench);
+    EXPECT_EQ(bench->CurrentDocument()->Name(), model);
+    EXPECT_EQ(bench->Message(), "");
+    bench->OpenDropped({folder.Path()});
+    settle(*bench);
+    EXPECT_EQ(bench->CurrentDocument()->Name(), model);
+    EXPECT_NE(bench->Message().find(folder.Path()), std::string::npos) << bench->Message();
+    ioFiles::WriteBytes(folder.File("settings.txt"), "model ring\nshading zebra\n");
+    bench->OpenDropped({folder.File("settings.txt")});
+    settle(*bench);
+    EXPECT_EQ(bench->CurrentDocument()->Name(), "ring");
+    EXPECT_EQ(bench->settings.view.shading, ShadingMode::Zebra);
+}
+
+TEST_F(WorkbenchTest, TakesACameraThatIsPastedAndSaysWhatIsNone) {
+    auto const bench = open("mug");
+    PasteCamera(*bench, "orbit?yaw=10&pitch=20&distance=3&target=1,2,3");
+    EXPECT_EQ(bench->settings.camera.camera.yaw, 10);
+    EXPECT_EQ(bench->settings.camera.camera.target, glm::vec3(1, 2, 3));
+    EXPECT_TRUE(bench->settings.camera.isFramed);
+    EXPECT_EQ(bench->Message(), "");
+    Camera const kept = bench->settings.camera.camera;
+    for (char const* text : {static_cast<char const*>(nullptr), "", "a shopping list"}) {
+        bench->Say({});
+        PasteCamera(*bench, text);
+        EXPECT_EQ(bench->settings.camera.camera, kept);
+        EXPECT_NE(bench->Message().find("is no camera"), std::string::npos);
+    }
+    // As it is copied out of a line of text.
+    PasteCamera(*bench, "  top\n");
+    EXPECT_EQ(bench->settings.camera.camera.pitch, 90);
 }
 
 TEST_F(WorkbenchTest, SavesSettingsAndReadsThem) {

@@ -2,7 +2,8 @@
 #pragma once
 
 /// \file
-/// What the viewer's tests share: the program run as people run it, and its pictures as numbers.
+/// What the viewer's tests share: the program run as people run it, or its pictures made here; and pictures as
+/// numbers.
 
 #include <gtest/gtest.h>
 #include <stb_image.h>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "tests/ioFiles.h"
+#include "viewer/imageMaker.h"
 
 namespace viewerTest {
 
@@ -78,6 +80,9 @@ public:
         _pixels.assign(data.get(), data.get() + 3 * _width * _height);
     }
 
+    explicit Picture(osd_shading::viewer::Image const& image)
+        : _width(image.size.x), _height(image.size.y), _pixels(image.pixels) {}
+
     int Width() const { return _width; }
     int Height() const { return _height; }
     Color At(int x, int y) const {
@@ -116,7 +121,7 @@ inline int NumDifferent(Picture const& a, Picture const& b, int tolerance) {
 }
 
 /// Runs the program for a picture; fails the test where it does.
-inline Picture Draw(Words words) {
+inline Picture DrawByProgram(Words words) {
     ioFiles::TemporaryFolder const folder;
     std::string const file = folder.File("picture.png");
     words.insert(words.end(), {"--image", file});
@@ -125,5 +130,30 @@ inline Picture Draw(Words words) {
     EXPECT_EQ(folder.NumFiles(), 1U) << "a temporary file is left";
     return outcome.status == 0 ? Picture(file) : Picture();
 }
+
+/// Makes pictures in this process, of the words that the program would take: it would set up its graphics and
+/// compile its shaders for each. That both make the same is a test of its own.
+class Drawing : public testing::Environment {
+public:
+    /// Before main returns: the driver has an end of its own.
+    void TearDown() override { _maker.reset(); }
+
+    static Picture Draw(Words words) {
+        words.insert(words.end(), {"--image", "picture.png"});
+        try {
+            auto const line = osd_shading::viewer::ParseCommandLine(words);
+            if (!_maker) _maker = std::make_unique<osd_shading::viewer::ImageMaker>();
+            return Picture(_maker->Make(*line, [](std::string const& warning) { ADD_FAILURE() << warning; }));
+        } catch (std::exception const& error) {
+            ADD_FAILURE() << error.what();
+            return {};
+        }
+    }
+
+private:
+    static inline std::unique_ptr<osd_shading::viewer::ImageMaker> _maker;
+};
+
+inline Picture Draw(Words const& words) { return Drawing::Draw(words); }
 
 }  // namespace viewerTest

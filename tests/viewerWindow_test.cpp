@@ -30,6 +30,8 @@ using nlohmann::json;
 using viewerTest::Words;
 namespace viewer = osd_shading::viewer;
 
+[[maybe_unused]] testing::Environment* const kDrawing = testing::AddGlobalTestEnvironment(new viewerTest::Drawing);
+
 constexpr std::chrono::seconds kPatience(40);
 
 /// A program whose output can be read line by line; ended when this is destroyed.
@@ -107,18 +109,21 @@ protected:
     static constexpr int kPanel = 300, kSide = 600;  // units that the panel covers; the scene's width and height
 
     Window()
-        : _server({OSD_SHADING_XVFB, "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"}, 1,
-                  "/") {
+        // -noreset: else the server forgets what was set when the program that set it is gone.
+        : _server(
+              {OSD_SHADING_XVFB, "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp", "-noreset"},
+              1, "/") {
         std::string const number = _server.Line();
         EXPECT_FALSE(number.empty()) << "Xvfb does not start";
         setenv("DISPLAY", (":" + number).c_str(), 1);
     }
 
-    void open(Words words) {
+    /// `size`: of the window in units of the screen.
+    void open(Words words, glm::ivec2 size = {kPanel + kSide, kSide}) {
         words.insert(words.begin(), OSD_SHADING_VIEWER_PROGRAM);
         words.insert(words.end(),
-                     {"--report-state", "--size", std::to_string(kPanel + kSide) + "x" + std::to_string(kSide)});
-        _program.emplace(words, STDOUT_FILENO, folder.Path());
+                     {"--report-state", "--size", std::to_string(size.x) + "x" + std::to_string(size.y)});
+        _program = std::make_unique<Child>(words, STDOUT_FILENO, folder.Path());
     }
 
     /// Reads states until `isReached`; the last one otherwise, and fails.
@@ -144,20 +149,22 @@ protected:
     }
 
     int status() { return _program->Status(); }
+    /// Takes the program out, still running.
+    std::unique_ptr<Child> keep() { return std::exchange(_program, nullptr); }
 
     ioFiles::TemporaryFolder folder;
 
 private:
     Child _server;
-    std::optional<Child> _program;
+    std::unique_ptr<Child> _program;
 };
 
-/// A control edge that is seen from the front, and the pixel of its middle.
+/// A control edge that is seen from the front, and the pixel of its middle: no vertex is within `reach` of it.
 struct SeenEdge {
     viewer::EdgeKey edge{-1, -1};
     glm::vec2 pixel{0};
 };
-SeenEdge FindSeenEdge(std::string const& name, int level, glm::vec2 size) {
+SeenEdge FindSeenEdge(std::string const& name, int level, glm::vec2 size, float reach) {
     auto const model = std::make_shared<osd_shading::io::Model>(viewer::LoadModel(name));
     viewer::SceneBuilder builder;
     auto const scene = builder.Build({model, name, model->Rules({}), osd_shading::PaperPreset(level), false, {}},
@@ -167,14 +174,14 @@ SeenEdge FindSeenEdge(std::string const& name, int level, glm::vec2 size) {
         viewer::ControlCurve const& curve = scene->topology->curves[i];
         glm::vec3 const middle = scene->Position(scene->topology->curveValues[curve.first + curve.count / 2]);
         auto const at = viewer::Project(camera, scene->bounds, size, middle);
-        viewer::Pick const pick = viewer::PickAt(*scene, camera, size, *at, 6);
+        viewer::Pick const pick = viewer::PickAt(*scene, camera, size, *at, reach);
         if (pick.curve == static_cast<int>(i) && pick.point) return {curve.vertices, glm::vec2(*at)};
     }
     return {};
 }
 
 TEST_F(Window, LoadsPicksSharpensUndoesAndTakesAPicture) {
-    SeenEdge const seen = FindSeenEdge("cube_uvs", 3, {kSide, kSide});
+    SeenEdge const seen = FindSeenEdge("cube_uvs", 3, {kSide, kSide}, 8);
     ASSERT_GE(seen.edge[0], 0);
     open({"cube_uvs", "--level", "3", "--camera", "front", "--normals", "blended", "--split-kind", "none"});
     json const first = waitFor("the model", [](json const& s) { return s["faces"] == 384; });
@@ -232,6 +239,88 @@ TEST_F(Window, WorksWithTheKeyboardAlone) {
     input("key ctrl+s");
     waitFor("the cage", [](json const& s) { return s["message"] == "written: creased.obj"; });
     EXPECT_GT(ioFiles::ReadBytes(folder.File("creased.obj")).size(), 100U);
+    input("key ctrl+q");
+    EXPECT_EQ(status(), 0);
+}
+
+TEST_F(Window, TakesScreenshotsAtAMultipleOfItsSize) {
+    open({"ring", "--level", "2", "--screenshot-multiple", "3"});
+    waitFor("the model", [](json const& s) { return s["level"] == 2; });
+    moveTo({300, 300});
+    input("key p");
+    waitFor("the picture", [](json const& s) { return s["message"] == "written: osd_shading_001.png"; });
+    viewerTest::Picture const large(folder.File("osd_shading_001.png"));
+    EXPECT_EQ(large.Width(), 3 * kSide);
+    EXPECT_EQ(large.Height(), 3 * kSide);
+    // What is drawn is as large as in the window, letters and lines included.
+    viewerTest::Picture const small =
+        viewerTest::Draw({"ring", "--level", "2", "--split", "limit,blended", "--size",
+                          std::to_string(kSide) + "x" + std::to_string(kSide), "--hud"});
+    EXPECT_NEAR(large.NumCovered(), 9 * small.NumCovered(), small.NumCovered() / 2);
+    input("key ctrl+q");
+    EXPECT_EQ(status(), 0);
+}
+
+TEST_F(Window, PastesACameraThatAnotherWindowCopied) {
+    std::string const camera = "orbit?yaw=77&pitch=11&fov=30&distance=6&target=0.5,0,0";
+    open({"hat", "--level", "1", "--camera", camera});
+    EXPECT_EQ(waitFor("the model", [](json const& s) { return s["level"] == 1; })["camera"], camera);
+    moveTo({300, 300});
+    input("key ctrl+c");
+    std::unique_ptr<Child> const first = keep();
+    open({"ring", "--level", "1", "--camera", "front"});
+    waitFor("the other model", [](json const& s) { return s["model"] == "ring"; });
+    moveTo({310, 310});
+    input("key ctrl+v");
+    waitFor("the camera of the first window", [&](json const& s) { return s["camera"] == camera; });
+    input("key ctrl+q");
+    EXPECT_EQ(status(), 0);
+}
+
+TEST_F(Window, TheSplitLineIsDragged) {
+    open({"mug", "--level", "2", "--split-line", "0.5"});
+    json const first = waitFor("the model", [](json const& s) { return s["level"] == 2; });
+    EXPECT_EQ(first["splitLine"], 0.5);
+    moveTo({kSide / 2, 100});
+    input("mousedown 1");
+    moveTo({kSide / 2 - 60, 140});
+    moveTo({kSide / 4, 200});
+    input("mouseup 1");
+    json const dragged = waitFor("the line elsewhere", [](json const& s) { return s["splitLine"] == 0.25; });
+    EXPECT_EQ(dragged["camera"], first["camera"]);  // what is dragged is the line and not the model
+    // Beside the line it is the model that turns.
+    moveTo({kSide / 2, 100});
+    input("mousedown 1");
+    moveTo({kSide / 2 + 50, 100});
+    input("mouseup 1");
+    json const turned = waitFor("another view", [&](json const& s) { return s["camera"] != first["camera"]; });
+    EXPECT_EQ(turned["splitLine"], 0.25);
+    input("key ctrl+q");
+    EXPECT_EQ(status(), 0);
+}
+
+TEST_F(Window, OnADenseScreenEverythingIsLargerAndWhatOnePointsAtIsStillPicked) {
+    if (std::string(OSD_SHADING_XPROP).empty()) GTEST_SKIP() << "there is no xprop to say that the screen is dense";
+    // Of twice the usual dots an inch: the window of 450 x 300 takes 900 x 600, and the panel 600 of them.
+    std::string const command =
+        OSD_SHADING_XPROP " -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi: 192'";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    glm::ivec2 const scene(300, 600);
+    SeenEdge const seen = FindSeenEdge("cube_uvs", 3, scene, 16);
+    ASSERT_GE(seen.edge[0], 0);
+    open({"cube_uvs", "--level", "3", "--camera", "front", "--split-kind", "none"}, {450, 300});
+    waitFor("the model", [](json const& s) { return s["faces"] == 384; });
+    moveTo(seen.pixel + glm::vec2(kPanel, 60));
+    moveTo(seen.pixel + glm::vec2(kPanel, 0));
+    waitFor("the edge under the cursor", [](json const& s) { return s["hover"][0].get<int>() >= 0; });
+    input("click 1");
+    json const picked = waitFor("the picked edge", [](json const& s) { return s["edges"].size() == 1; });
+    EXPECT_EQ(picked["edges"][0].get<viewer::EdgeKey>(), seen.edge);
+    input("key p");
+    waitFor("the picture", [](json const& s) { return s["message"] == "written: osd_shading_001.png"; });
+    viewerTest::Picture const picture(folder.File("osd_shading_001.png"));
+    EXPECT_EQ(picture.Width(), scene.x);
+    EXPECT_EQ(picture.Height(), scene.y);
     input("key ctrl+q");
     EXPECT_EQ(status(), 0);
 }

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #define OSD_SHADE_TEXT_(x) #x
@@ -22,29 +21,13 @@ char const kVersionText[] =
 // Options whose default depends on others.
 struct GivenOptions {
     ShadingChoice shading;
-    std::optional<int> threads;
+    RunChoice run;
     std::optional<double> tolerance;
-    std::optional<Precision> precision;
     std::optional<int> frames;
     std::optional<DeformationKind> deformation;
     std::optional<TessellationOptions> tessellation;
     std::optional<double> maxAngle, maxPixels;
 };
-
-// Bytes, or units of 1024, its square, cube and fourth power.
-std::optional<std::uint64_t> ParseBytes(std::string_view text) {
-    int shift = 0;
-    if (!text.empty()) {
-        std::size_t const unit = std::string_view("KMGTkmgt").find(text.back());
-        if (unit != std::string_view::npos) {
-            shift = 10 * (static_cast<int>(unit % 4) + 1);
-            text.remove_suffix(1);
-        }
-    }
-    std::optional<std::uint64_t> const number = ParseNumber<std::uint64_t>(text);
-    if (!number || *number > (std::numeric_limits<std::uint64_t>::max() >> shift)) return std::nullopt;
-    return *number << shift;
-}
 
 // Options of files come first in the help, those that few need last.
 void AddFileOptions(CLI::App& app, CommandLine& line) {
@@ -59,26 +42,8 @@ void AddFileOptions(CLI::App& app, CommandLine& line) {
     app.add_flag("--quiet", line.quiet, "No table");
 }
 
-void AddRunOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
+void AddCheckOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
     static constexpr char kGroup[] = "Run";
-    AddChoice(app, "--precision", given.precision, kPrecisionNames, "Numbers to compute with (default double)")
-        ->group(kGroup);
-    AddNumber(
-        app, "--threads", given.threads, "a whole number, 0 or more", [](int x) { return x >= 0; },
-        "Threads (default 0: as many as the machine has); the result is the same")
-        ->group(kGroup);
-    auto const readBytes = [&line](std::string const& text) {
-        line.memoryLimit = ParseBytes(text);
-        if (line.memoryLimit.value_or(0) == 0) {
-            Refuse("--memory-limit",
-                   "'" + text + "' is not a number of bytes above 0, which K, M, G or T may follow");
-        }
-    };
-    app.add_option_function<std::string>(
-           "--memory-limit", readBytes,
-           "Refuse what would take more; K, M, G and T count in 1024s (default: three quarters of what is free)")
-        ->type_name("BYTES")
-        ->group(kGroup);
     app.add_flag("--check", line.check, "Compare the geometry with OpenSubdiv's own; status 3 when it differs")
         ->group(kGroup);
     AddNumber(
@@ -196,7 +161,8 @@ std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
     AddFileOptions(app, line);
     AddMeshOptions(app, line);
     AddShadingOptions(app, given.shading);
-    AddRunOptions(app, line, given);
+    AddRunOptions(app, given.run, "double");
+    AddCheckOptions(app, line, given);
     AddFrameOptions(app, line, given);
     AddTessellationOptions(app, line, given);
     try {
@@ -208,10 +174,11 @@ std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
         throw UsageError(std::string(error.what()) + " (see osd_shade --help)");
     }
 
-    Replace(line.precision, given.precision);
+    Replace(line.precision, given.run.precision);
+    line.memoryLimit = given.run.memoryLimit;
     line.tolerance = given.tolerance.value_or(line.precision == Precision::Double ? 1e-12 : 1e-6);
     line.shading = given.shading.Resolve(given.tessellation ? kDefaultSurfaceLevel : ShadingOptions{}.level);
-    line.shading.execution.numThreads = given.threads.value_or(0);
+    line.shading.execution.numThreads = given.run.threads.value_or(0);
 
     ResolveTessellation(app, line, given);
     if (line.tessellation) line.tessellation->numThreads = line.shading.execution.numThreads;

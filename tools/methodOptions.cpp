@@ -2,6 +2,8 @@
 #include "methodOptions.h"
 
 #include <cmath>
+#include <limits>
+#include <string_view>
 
 namespace osd_shading::tool {
 
@@ -11,6 +13,21 @@ void RequireUpTo(int level, std::string const& option, std::optional<int> const&
     if (start.value_or(0) > level) {
         Refuse(option, std::to_string(*start) + " lies above the last level, " + std::to_string(level));
     }
+}
+
+// Bytes, or units of 1024, its square, cube and fourth power.
+std::optional<std::uint64_t> ParseBytes(std::string_view text) {
+    int shift = 0;
+    if (!text.empty()) {
+        std::size_t const unit = std::string_view("KMGTkmgt").find(text.back());
+        if (unit != std::string_view::npos) {
+            shift = 10 * (static_cast<int>(unit % 4) + 1);
+            text.remove_suffix(1);
+        }
+    }
+    std::optional<std::uint64_t> const number = ParseNumber<std::uint64_t>(text);
+    if (!number || *number > (std::numeric_limits<std::uint64_t>::max() >> shift)) return std::nullopt;
+    return *number << shift;
 }
 
 }  // namespace
@@ -91,6 +108,29 @@ void AddShadingOptions(CLI::App& app, ShadingChoice& given) {
         ->group(kGroup);
     AddChoice(app, "--positions", given.positions, kPositionNames,
               "Vertices on the limit surface (default), or as refined")
+        ->group(kGroup);
+}
+
+void AddRunOptions(CLI::App& app, RunChoice& given, std::string const& precisionDefault) {
+    static constexpr char kGroup[] = "Run";
+    AddChoice(app, "--precision", given.precision, kPrecisionNames,
+              "Numbers to compute with (default " + precisionDefault + ")")
+        ->group(kGroup);
+    AddNumber(
+        app, "--threads", given.threads, "a whole number, 0 or more", [](int x) { return x >= 0; },
+        "Threads (default 0: as many as the machine has); the result is the same")
+        ->group(kGroup);
+    auto const readBytes = [&given](std::string const& text) {
+        given.memoryLimit = ParseBytes(text);
+        if (given.memoryLimit.value_or(0) == 0) {
+            Refuse("--memory-limit",
+                   "'" + text + "' is not a number of bytes above 0, which K, M, G or T may follow");
+        }
+    };
+    app.add_option_function<std::string>(
+           "--memory-limit", readBytes,
+           "Refuse what would take more; K, M, G and T count in 1024s (default: three quarters of what is free)")
+        ->type_name("BYTES")
         ->group(kGroup);
 }
 

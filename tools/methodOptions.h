@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -48,10 +49,21 @@ struct ShadingChoice {
     ShadingOptions Resolve(int defaultLevel = ShadingOptions{}.level) const;
 };
 
+/// What a run may take and how it computes; unset: each program's default.
+struct RunChoice {
+    std::optional<Precision> precision;
+    std::optional<int> threads;
+    std::optional<std::uint64_t> memoryLimit;  ///< bytes, above 0
+
+    bool operator==(RunChoice const&) const = default;
+};
+
 /// The words of `--preset`.
 inline constexpr OptionNames<bool, 2> kPresetNames = {{{"paper", false}, {"smooth", true}}};
 
 void AddMeshOptions(CLI::App& app, MeshOptions& mesh);
 void AddShadingOptions(CLI::App& app, ShadingChoice& given);
+/// `precisionDefault`: the program's own, in words.
+void AddRunOptions(CLI::App& app, RunChoice& given, std::string const& precisionDefault);
 
 }  // namespace osd_shading::tool

@@ -30,7 +30,7 @@ struct GivenOptions {
     std::optional<std::pair<NormalChoice, NormalChoice>> pair;
     std::optional<SplitKind> split;
     std::optional<double> splitPosition, roughness, lineAngle, range, scale, phase, amount;
-    std::optional<int> lines, vertex, threads;
+    std::optional<int> lines, vertex, screenshotMultiple;
     std::optional<Background> background;
     std::optional<bool> legend;
     std::optional<DeformationKind> deformation;
@@ -171,6 +171,11 @@ void AddViewOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
         app, "--scale", given.scale, "a number from 0.5 to 8", [](double x) { return x >= 0.5 && x <= 8; },
         "Size of letters and lines in a picture (default 1)")
         ->group(kGroup);
+    AddNumber(
+        app, "--screenshot-multiple", given.screenshotMultiple, "a whole number from 1 to 8",
+        [](int x) { return x >= 1 && x <= kMaxScreenshotMultiple; },
+        "Size of the window's screenshots, times that of its scene (default 1)")
+        ->group(kGroup);
 }
 
 void AddMotionOptions(CLI::App& app, GivenOptions& given) {
@@ -215,7 +220,7 @@ void Resolve(GivenOptions const& given, CommandLine& line) {
     Replace(deformation.kind, given.deformation);
     ReplaceNumber(deformation.phase, given.phase);
     ReplaceNumber(deformation.amount, given.amount);
-    Replace(line.settings.numThreads, given.threads);
+    Replace(line.settings.screenshotMultiple, given.screenshotMultiple);
 
     // A window without a word about the view begins with the artefact beside its cure.
     bool const saysNothing =
@@ -266,10 +271,7 @@ std::optional<CommandLine> ParseCommandLine(std::vector<std::string> const& word
     tool::AddShadingOptions(app, line.settings.shading);
     AddViewOptions(app, line, given);
     AddMotionOptions(app, given);
-    AddNumber(
-        app, "--threads", given.threads, "a whole number, 0 or more", [](int x) { return x >= 0; },
-        "Threads (default 0: as many as the machine has)")
-        ->group("Run");
+    tool::AddRunOptions(app, line.settings.run, "float, for files that the window saves double");
     app.add_flag("--report-state", line.reportsState, "Print the window's state as JSON whenever it changes")
         ->group("Run");
     try {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 namespace osd_shading::viewer {
 
@@ -253,7 +254,12 @@ void SetStandardView(Workbench& bench, char const* name) {
 }
 
 void PasteCamera(Workbench& bench, char const* text) {
-    std::optional<CameraChoice> const camera = ParseCamera(text ? text : "");
+    // Spaces and the end of a line come along with what is copied.
+    static constexpr std::string_view kSpace = " \t\r\n";
+    std::string_view words = text ? text : "";
+    words.remove_prefix(std::min(words.find_first_not_of(kSpace), words.size()));
+    words = words.substr(0, words.find_last_not_of(kSpace) + 1);
+    std::optional<CameraChoice> const camera = ParseCamera(words);
     if (camera) {
         bench.settings.camera = *camera;
     } else {

@@ -7,21 +7,14 @@
 
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "annotations.h"
-#include "builtInModels.h"
 #include "commandLine.h"
 #include "figures.h"
-#include "modelInput.h"
-#include "offscreen.h"
-#include "osd_shading/subdivisionShading.h"
-#include "outputTarget.h"
-#include "sceneBuilder.h"
+#include "imageMaker.h"
 #include "window.h"
 
 namespace osd_shading::viewer {
@@ -29,7 +22,6 @@ namespace osd_shading::viewer {
 namespace {
 
 constexpr int kSuccess = 0, kFailure = 2;
-constexpr glm::ivec2 kDefaultSize(1280, 800);
 
 // One line, whatever the text: scripts read it as such.
 void PrintLine(char const* kind, std::string text) {
@@ -42,26 +34,8 @@ void PrintLine(char const* kind, std::string text) {
 void PrintOpenSubdivWarning(char const* text) { PrintLine("warning", std::string("OpenSubdiv: ") + text); }
 
 int MakeImage(CommandLine const& line) {
-    Settings const& settings = line.settings;
-    std::string const name = settings.modelFile.empty() ? std::string(kFirstModel) : settings.modelFile;
-    auto model = std::make_shared<io::Model>(LoadModel(name));
-    tool::ApplyMeshOptions(settings.mesh, *model);
-    for (std::string const& warning : model->warnings) PrintLine("warning", warning);
-
-    SceneBuilder builder;
-    SceneRequest request{model,
-                         name,
-                         settings.mesh.Rules(*model),
-                         settings.shading.Resolve(),
-                         settings.view.Shows(NormalChoice::Subdivided),
-                         settings.deformation};
-    request.options.execution.numThreads = settings.numThreads;
-    std::shared_ptr<Scene const> const scene = builder.Build(request, [](double) { return true; });
-
-    OffscreenContext const context;
-    PictureMaker maker(line.scale);
-    WritePng(line.imageFile, maker.Make(scene, settings.camera, settings.view, line.size.value_or(kDefaultSize), {},
-                                        line.hasHud ? SceneLines(*scene) : std::vector<std::string>()));
+    ImageMaker maker;
+    WritePng(line.imageFile, maker.Make(line, [](std::string const& warning) { PrintLine("warning", warning); }));
     return kSuccess;
 }
 

@@ -261,8 +261,9 @@ void DrawCamera(Workbench& bench, PanelState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Paste")) PasteCamera(bench, ImGui::GetClipboardText());
     ImGui::TextWrapped("%s", camera.Text().c_str());
-    ImGui::SliderInt("times the window", &state.screenshotMultiple, 1, 8);
-    state.screenshotMultiple = std::clamp(state.screenshotMultiple, 1, 8);
+    int& multiple = bench.settings.screenshotMultiple;
+    ImGui::SliderInt("times the window", &multiple, 1, kMaxScreenshotMultiple);
+    multiple = std::clamp(multiple, 1, kMaxScreenshotMultiple);
     if (ImGui::Button("Screenshot (P)")) state.wantsScreenshot = true;
 }
 

@@ -14,8 +14,7 @@ struct PanelState {
     bool hasKeyboard = false;  ///< keys move in the panel
     bool takesFocus = false;   ///< the panel is to be focused; reset when done
     bool wantsScreenshot = false, wantsFrame = false, wantsQuit = false;  ///< reset when done
-    int screenshotMultiple = 1;
-    double updateSeconds = 0, drawSeconds = 0;  ///< of the last frame, for display
+    double updateSeconds = 0, drawSeconds = 0;                            ///< of the last frame, for display
 
     // What is typed in.
     std::string openFile, cageFile = "creased.obj", resultFile = "shaded.ply", settingsFile = "viewer_settings.txt";
@@ -23,9 +22,8 @@ struct PanelState {
     float creaseAngle = 40;
 };
 
-/// Draws all panels into the current Dear ImGui frame, for a window of `size` units. `scale`: units per letter size
-/// of
-/// 1. The part of the window that is left for the scene begins at `PanelWidth`.
+/// Draws all panels into the current Dear ImGui frame, for a window of `size` units. `scale`: units per letter
+/// size. The part of the window that is left for the scene begins at `PanelWidth`.
 void DrawPanels(Workbench& bench, PanelState& state, glm::vec2 size, float scale);
 
 /// Units that the panel covers at the left.

@@ -22,7 +22,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-glm::vec3 ToGlm(Vec3<float> const& v) { return {v.x, v.y, v.z}; }
+template <typename Real>
+glm::vec3 ToGlm(Vec3<Real> const& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 // The middle of the model's box. Single precision shows a model anywhere as well as at the origin.
 glm::dvec3 OriginOf(io::Model const& model) {
@@ -35,14 +38,19 @@ glm::dvec3 OriginOf(io::Model const& model) {
     return low + (high - low) / 2.0;
 }
 
-std::vector<glm::vec3> PointsOf(io::Model const& model, glm::dvec3 const& origin) {
-    std::vector<glm::vec3> points;
+std::vector<glm::dvec3> PointsOf(io::Model const& model, glm::dvec3 const& origin) {
+    std::vector<glm::dvec3> points;
     points.reserve(model.positions.size() / 3);
     for (std::size_t i = 0; i < model.positions.size(); i += 3) {
-        points.emplace_back(glm::dvec3(model.positions[i], model.positions[i + 1], model.positions[i + 2]) -
-                            origin);
+        points.push_back(glm::dvec3(model.positions[i], model.positions[i + 1], model.positions[i + 2]) - origin);
     }
     return points;
+}
+
+// Points of glm as the library views them.
+template <typename Point>
+auto ViewOf(std::vector<Point> const& points) {
+    return PointView<typename Point::value_type>(&points[0].x, points.size());
 }
 
 CageShape MakeCage(io::Model const& model, std::vector<glm::vec3> const& points) {
@@ -61,12 +69,14 @@ CageShape MakeCage(io::Model const& model, std::vector<glm::vec3> const& points)
     return cage;
 }
 
-std::vector<SurfaceVertex> VerticesOf(ShadingResult<float> const& result) {
+template <typename Real>
+std::vector<SurfaceVertex> VerticesOf(ShadingResult<Real> const& result) {
     std::vector<SurfaceVertex> vertices(result.valueVertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         auto const vertex = static_cast<std::size_t>(result.valueVertices[i]);
         vertices[i] = {ToGlm(result.positions[vertex]), ToGlm(result.limitNormals[i]),
-                       ToGlm(result.subdividedNormals[i]), ToGlm(result.blendedNormals[i]), result.blendWeights[i]};
+                       ToGlm(result.subdividedNormals[i]), ToGlm(result.blendedNormals[i]),
+                       static_cast<float>(result.blendWeights[i])};
     }
     return vertices;
 }
@@ -91,8 +101,9 @@ bool IsSame(SubdivisionRules const& a, SubdivisionRules const& b) {
            a.creasing == b.creasing && a.triangles == b.triangles;
 }
 
-ShadingResult<float> Shade(SceneRequest const& request, ShadingInput<float> const& input,
-                           ShadingOptions const& options) {
+template <typename Real>
+ShadingResult<Real> Shade(SceneRequest const& request, ShadingInput<Real> const& input,
+                          ShadingOptions const& options) {
     try {
         return ShadeSubdivision(request.model->Mesh(request.rules), input, options);
     } catch (InvalidControlMesh const& error) {
@@ -100,9 +111,10 @@ ShadingResult<float> Shade(SceneRequest const& request, ShadingInput<float> cons
     }
 }
 
-bool HasTables(ShadingOptions const& options) {
-    return options.subdividedNormals.averaging == NormalAveraging::Linear &&
-           options.startNormals.kind != StartNormalKind::User;
+bool HasTables(SceneRequest const& request) {
+    return request.options.subdividedNormals.averaging == NormalAveraging::Linear &&
+           request.options.startNormals.kind != StartNormalKind::User &&
+           request.precision == tool::Precision::Float;
 }
 
 // What of the options a table depends on; `execution` changes no number.
@@ -134,12 +146,19 @@ std::shared_ptr<Scene const> SceneBuilder::Build(SceneRequest const& request,
 
     // Bring the points to where they are shown.
     glm::dvec3 const origin = OriginOf(model);
-    std::vector<glm::vec3> points = PointsOf(model, origin);
+    std::vector<glm::dvec3> exact = PointsOf(model, origin);
+    std::vector<glm::vec3> points(exact.begin(), exact.end());
     Deform(request.deformation, points);
 
     bool const isMoved = request.deformation.kind != DeformationKind::None;
-    std::shared_ptr<Scene> const scene = isMoved && HasTables(request.options) ? evaluate(request, points, progress)
-                                                                               : shade(request, points, progress);
+    std::shared_ptr<Scene> scene;
+    if (request.precision == tool::Precision::Double) {
+        if (isMoved) exact.assign(points.begin(), points.end());
+        scene = shade(request, ViewOf(exact), progress);
+    } else {
+        scene = isMoved && HasTables(request) ? evaluate(request, points, progress)
+                                              : shade(request, ViewOf(points), progress);
+    }
     scene->origin = origin;
     scene->bounds = BoundsOf(scene->vertices);
     scene->cage = MakeCage(model, points);
@@ -147,26 +166,27 @@ std::shared_ptr<Scene const> SceneBuilder::Build(SceneRequest const& request,
     return scene;
 }
 
-std::shared_ptr<Scene> SceneBuilder::shade(SceneRequest const& request, std::vector<glm::vec3> const& points,
+template <typename Real>
+std::shared_ptr<Scene> SceneBuilder::shade(SceneRequest const& request, PointView<Real> const& points,
                                            std::function<bool(double)> const& progress) {
     auto scene = std::make_shared<Scene>();
     io::Model const& model = *request.model;
-    tool::RunInput<float> run = tool::MakeInput<float>(request.file, model, request.options.startNormals.kind);
-    run.input.positions = {&points[0].x, points.size()};
+    tool::RunInput<Real> run = tool::MakeInput<Real>(request.file, model, request.options.startNormals.kind);
+    run.input.positions = points;
     run.input.faceVaryingData.clear();
 
     // Shade, a second time with weight 1 where N_S is wanted everywhere.
     bool const needsSecond = request.allSubdivided && request.options.weights.scheme != WeightScheme::One;
-    ShadingResult<float> result = Shade(request, run.input, WithExecution(request.options, [&](double share) {
-                                            return progress(needsSecond ? share / 2 : share);
-                                        }));
+    ShadingResult<Real> result = Shade(request, run.input, WithExecution(request.options, [&](double share) {
+                                           return progress(needsSecond ? share / 2 : share);
+                                       }));
     scene->vertices = VerticesOf(result);
     scene->hasAllSubdivided = request.allSubdivided || result.options.weights.scheme == WeightScheme::One;
     if (needsSecond) {
         ShadingOptions everywhere =
             WithExecution(request.options, [&](double share) { return progress(0.5 + share / 2); });
         everywhere.weights.scheme = WeightScheme::One;
-        ShadingResult<float> const second = Shade(request, run.input, everywhere);
+        ShadingResult<Real> const second = Shade(request, run.input, everywhere);
         for (std::size_t i = 0; i < scene->vertices.size(); ++i) {
             scene->vertices[i].subdividedNormal = ToGlm(second.subdividedNormals[i]);
         }
@@ -200,9 +220,9 @@ std::shared_ptr<Scene> SceneBuilder::evaluate(SceneRequest const& request, std::
         _tables.reset();
         SceneRequest still = request;
         still.deformation = {};
-        glm::dvec3 const origin = OriginOf(*request.model);
-        auto rest =
-            shade(still, PointsOf(*request.model, origin), [&](double share) { return progress(share / 2); });
+        std::vector<glm::dvec3> const exact = PointsOf(*request.model, OriginOf(*request.model));
+        std::vector<glm::vec3> const stillPoints(exact.begin(), exact.end());
+        auto rest = shade(still, ViewOf(stillPoints), [&](double share) { return progress(share / 2); });
         ShadingOptions const options =
             WithExecution(request.options, [&](double share) { return progress(0.5 + share / 4); });
         ShadingOptions everywhere =

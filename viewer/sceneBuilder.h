@@ -7,26 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "deformation.h"
-#include "osd_shading/io/model.h"
 #include "osd_shading/shadingEvaluator.h"
-#include "osd_shading/shadingOptions.h"
 #include "scene.h"
+#include "sceneRequest.h"
 
 namespace osd_shading::viewer {
 
-/// All that a scene is computed from.
-struct SceneRequest {
-    std::shared_ptr<io::Model const> model;
-    std::string file;  ///< for messages
-    SubdivisionRules rules;
-    ShadingOptions options;
-    bool allSubdivided = false;  ///< N_S also where the blend does not need it
-    Deformation deformation;
-};
-
 /// Computes scenes, and keeps between them what does not change. A model that moves is evaluated from tables,
-/// unless its options are such that there are none (averaging on the sphere or normalising; normals of the file).
+/// unless its options are such that there are none (averaging on the sphere or normalising; normals of the file) or
+/// it is wanted in double.
 class SceneBuilder {
 public:
     /// `progress` as in ExecutionOptions.
@@ -35,7 +24,8 @@ public:
     std::shared_ptr<Scene const> Build(SceneRequest const& request, std::function<bool(double)> const& progress);
 
 private:
-    std::shared_ptr<Scene> shade(SceneRequest const& request, std::vector<glm::vec3> const& points,
+    template <typename Real>
+    std::shared_ptr<Scene> shade(SceneRequest const& request, PointView<Real> const& points,
                                  std::function<bool(double)> const& progress);
     std::shared_ptr<Scene> evaluate(SceneRequest const& request, std::vector<glm::vec3> const& points,
                                     std::function<bool(double)> const& progress);

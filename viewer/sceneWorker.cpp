@@ -19,11 +19,12 @@ namespace {
 constexpr std::chrono::milliseconds kShortWork(250);
 
 // Writes what osd_shade would write.
+template <typename Real>
 void SaveResult(SceneRequest const& request, std::string const& path, tool::OutputFormat format) {
     io::Model const& model = *request.model;
     tool::RequireTriangles(request.file, request.rules.scheme, model);
-    auto const run = tool::MakeInput<double>(request.file, model, request.options.startNormals.kind);
-    ShadingResult<double> const result = ShadeSubdivision(model.Mesh(request.rules), run.input, request.options);
+    auto const run = tool::MakeInput<Real>(request.file, model, request.options.startNormals.kind);
+    ShadingResult<Real> const result = ShadeSubdivision(model.Mesh(request.rules), run.input, request.options);
     switch (format) {
         case tool::OutputFormat::None:
             break;
@@ -123,7 +124,11 @@ WorkResult SceneWorker::work(Job const& job) {
         } else {
             SceneRequest request = job.request;
             request.options.execution.progress = progress;
-            SaveResult(request, job.path, job.format);
+            if (request.precision == tool::Precision::Double) {
+                SaveResult<double>(request, job.path, job.format);
+            } else {
+                SaveResult<float>(request, job.path, job.format);
+            }
         }
     } catch (Cancelled const&) {
         result.isAbandoned = true;

@@ -39,7 +39,7 @@ public:
     /// Numbers count up. Work that has run for long on an older request is abandoned; short work comes to its end,
     /// so that a slider that is dragged shows what it does.
     std::int64_t RequestScene(SceneRequest request);
-    /// The result of `request` in double precision, as a file in the format that `path` ends in.
+    /// The result of `request`, at rest, as a file in the format that `path` ends in.
     std::int64_t RequestFile(SceneRequest request, std::string path, tool::OutputFormat format);
     /// Gives up what runs.
     void Abandon();

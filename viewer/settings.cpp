@@ -64,7 +64,9 @@ void AddMethod(Settings const& settings, SettingsWriter& text) {
     text.AddNumber("spherical-steps", shading.sphericalSteps);
     text.AddChoice("limit-normals", shading.limitNormals, tool::kLimitNormalNames);
     text.AddChoice("positions", shading.positions, tool::kPositionNames);
-    if (settings.numThreads != 0) text.AddNumber("threads", settings.numThreads);
+    text.AddChoice("precision", settings.run.precision, tool::kPrecisionNames);
+    text.AddNumber("threads", settings.run.threads);
+    text.AddNumber("memory-limit", settings.run.memoryLimit);
 }
 
 void AddView(Settings const& settings, SettingsWriter& text) {
@@ -92,6 +94,7 @@ void AddView(Settings const& settings, SettingsWriter& text) {
     text.Add("deform", tool::NameOf(kDeformationNames, settings.deformation.kind));
     text.AddNumber("phase", settings.deformation.phase);
     text.AddNumber("amount", settings.deformation.amount);
+    text.AddNumber("screenshot-multiple", settings.screenshotMultiple);
 }
 
 std::string_view Trimmed(std::string_view text) {

@@ -19,8 +19,11 @@ struct Settings {
     ViewOptions view;
     CameraChoice camera;
     Deformation deformation;
-    int numThreads = 0;  ///< 0: as many as the machine has
+    tool::RunChoice run;         ///< precision unset: float for what is shown, double for what is saved
+    int screenshotMultiple = 1;  ///< size of screenshots, times the window's
 };
+
+inline constexpr int kMaxScreenshotMultiple = 8;
 
 /// `settings` as text, a line for each option that is not at its default: the names of the command line without
 /// dashes, a space, the value.

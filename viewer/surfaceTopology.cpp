@@ -140,7 +140,8 @@ void AddCurves(std::vector<CurveEdge> const& edges, SurfaceTopology& topology) {
 }
 
 // Whether each connected piece encloses more of its inside than of its outside, by its signed volume.
-bool LooksOutwards(SurfaceTopology const& topology, std::vector<Vec3<float>> const& positions) {
+template <typename Real>
+bool LooksOutwards(SurfaceTopology const& topology, std::vector<Vec3<Real>> const& positions) {
     // Join the vertices of each face.
     std::vector<int> parents(positions.size());
     for (std::size_t i = 0; i < parents.size(); ++i) parents[i] = static_cast<int>(i);
@@ -163,7 +164,7 @@ bool LooksOutwards(SurfaceTopology const& topology, std::vector<Vec3<float>> con
     std::vector<double> volumes(positions.size(), 0);
     for (std::size_t i = 0; i < topology.triangles.size(); i += 3) {
         auto const point = [&](std::size_t corner) {
-            Vec3<float> const& p = positions[static_cast<std::size_t>(vertexAt(corner))];
+            Vec3<Real> const& p = positions[static_cast<std::size_t>(vertexAt(corner))];
             return glm::dvec3(p.x, p.y, p.z);
         };
         volumes[static_cast<std::size_t>(find(vertexAt(i)))] +=
@@ -174,7 +175,8 @@ bool LooksOutwards(SurfaceTopology const& topology, std::vector<Vec3<float>> con
 
 }  // namespace
 
-std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<float>&& result, int numControlVertices) {
+template <typename Real>
+std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<Real>&& result, int numControlVertices) {
     auto topology = std::make_shared<SurfaceTopology>();
     topology->faceSize = result.faceSize;
     topology->faceValues = std::move(result.faceValues);
@@ -189,5 +191,8 @@ std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<float>&
     topology->hidesBackFaces = topology->hidesBackFaces && LooksOutwards(*topology, result.positions);
     return topology;
 }
+
+template std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<float>&&, int);
+template std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<double>&&, int);
 
 }  // namespace osd_shading::viewer

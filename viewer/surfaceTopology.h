@@ -11,6 +11,10 @@ namespace osd_shading::viewer {
 /// edges once each, and the curves of the control edges.
 ///
 /// COST: linear in the faces.
-std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<float>&& result, int numControlVertices);
+template <typename Real>
+std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<Real>&& result, int numControlVertices);
+
+extern template std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<float>&&, int);
+extern template std::shared_ptr<SurfaceTopology const> MakeSurfaceTopology(ShadingResult<double>&&, int);
 
 }  // namespace osd_shading::viewer

@@ -26,6 +26,7 @@
 #include "panel.h"
 #include "renderer.h"
 #include "textLayer.h"
+#include "windowLayout.h"
 #include "workbench.h"
 
 namespace osd_shading::viewer {
@@ -125,7 +126,7 @@ public:
         glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { self(w).onMove({x, y}); });
         glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { self(w).onScroll(y); });
         glfwSetDropCallback(window, [](GLFWwindow* w, int count, char const** paths) {
-            if (count > 0) self(w)._bench.Open(paths[0]);
+            self(w)._bench.OpenDropped({paths, paths + count});
             self(w).touch();
         });
         glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { self(w).touch(); });
@@ -135,9 +136,9 @@ public:
             self(w).touch();
         });
         measure();
-        _panelContext.emplace(window, _unitScale);
+        _panelContext.emplace(window, _layout.UnitScale());
         _renderer.emplace();
-        _text.emplace(_pixelScale);
+        _text.emplace(_layout.PixelScale());
         _panel.showsHud = true;
     }
 
@@ -148,7 +149,7 @@ public:
             advanceMovement();
             if (_bench.BusySeconds() > 0) touch();
             measure();
-            if (_frameSize.x <= 0 || _frameSize.y <= 0) continue;  // minimised
+            if (!_layout.IsVisible()) continue;  // minimised
             if (_frames > 0) {
                 --_frames;
                 drawFrame();
@@ -168,7 +169,7 @@ private:
 
     void waitForEvents() {
         bool const isMoving = _panel.isPlaying || _frames > 0;
-        if (isMoving && _frameSize.x > 0) {
+        if (isMoving && _layout.IsVisible()) {
             glfwPollEvents();
         } else {
             // Some progress is to be seen, and a lost wake-up must not matter.
@@ -176,41 +177,14 @@ private:
         }
     }
 
-    // Sizes in units of the screen, which the mouse and the panels count in, and in pixels.
     void measure() {
-        int width = 0, height = 0;
+        glm::ivec2 size(0), frameSize(0);
         float scale = 1, ignored = 1;
-        glfwGetWindowSize(_window.Get(), &width, &height);
-        glfwGetFramebufferSize(_window.Get(), &_frameSize.x, &_frameSize.y);
+        glfwGetWindowSize(_window.Get(), &size.x, &size.y);
+        glfwGetFramebufferSize(_window.Get(), &frameSize.x, &frameSize.y);
         glfwGetWindowContentScale(_window.Get(), &scale, &ignored);
-        _size = {width, height};
-        _pixelsPerUnit = width > 0 ? static_cast<float>(_frameSize.x) / static_cast<float>(width) : 1;
-        _pixelScale = std::max(scale, 0.5F);
-        _unitScale = _pixelScale / _pixelsPerUnit;
+        _layout = WindowLayout(size, frameSize, scale, PanelWidth(_panel, 1));
     }
-
-    float left() const { return std::min(PanelWidth(_panel, _unitScale), _size.x); }
-    glm::ivec2 sceneSize() const {
-        int const panel = static_cast<int>(left() * _pixelsPerUnit);
-        return {std::max(_frameSize.x - panel, 1), std::max(_frameSize.y, 1)};
-    }
-
-    /// The view under the cursor; positions and size in pixels.
-    struct Place {
-        glm::vec2 at, size;
-    };
-    std::optional<Place> placeOf(glm::vec2 cursor) const {
-        glm::vec2 const pixel = (cursor - glm::vec2(left(), 0)) * _pixelsPerUnit;
-        for (Viewport const& viewport : ViewportsOf(_bench.settings.view, sceneSize())) {
-            glm::vec2 const inCut = pixel - glm::vec2(viewport.cutCorner);
-            bool const isInside = inCut.x >= 0 && inCut.y >= 0 &&
-                                  inCut.x < static_cast<float>(viewport.cutSize.x) &&
-                                  inCut.y < static_cast<float>(viewport.cutSize.y);
-            if (isInside) return Place{pixel - glm::vec2(viewport.corner), glm::vec2(viewport.size)};
-        }
-        return std::nullopt;
-    }
-    float splitX() const { return left() + _bench.settings.view.splitPosition * (_size.x - left()); }
 
     Camera& camera() { return _bench.settings.camera.camera; }
 
@@ -238,7 +212,8 @@ private:
         if (ImGui::GetIO().WantCaptureMouse) return;
         _dragStart = _cursor;
         bool const isOnSplit = _bench.settings.view.split == SplitKind::Line &&
-                               std::abs(_cursor.x - splitX()) < kSplitReach * _unitScale;
+                               std::abs(_cursor.x - _layout.SplitX(_bench.settings.view.splitPosition)) <
+                                   kSplitReach * _layout.UnitScale();
         if (button == GLFW_MOUSE_BUTTON_LEFT) {
             _drag = isOnSplit ? Drag::Split : Drag::Pending;
         } else {
@@ -250,18 +225,18 @@ private:
         touch();
         glm::vec2 const moved = glm::vec2(position) - _cursor;
         _cursor = position;
-        bool const begins = _drag == Drag::Pending && glm::distance(_cursor, _dragStart) > kDragStart * _unitScale;
+        bool const begins =
+            _drag == Drag::Pending && glm::distance(_cursor, _dragStart) > kDragStart * _layout.UnitScale();
         if (begins) _drag = Drag::Orbit;
         switch (_drag) {
             case Drag::Orbit:
                 camera().Orbit(-moved.x * kOrbitPerUnit, moved.y * kOrbitPerUnit);
                 break;
             case Drag::Pan:
-                camera().Pan(moved / std::max(_size.y, 1.0F));
+                camera().Pan(moved / std::max(_layout.Size().y, 1.0F));
                 break;
             case Drag::Split:
-                _bench.settings.view.splitPosition =
-                    std::clamp((_cursor.x - left()) / std::max(_size.x - left(), 1.0F), 0.0F, 1.0F);
+                _bench.settings.view.splitPosition = _layout.SplitPosition(_cursor.x);
                 break;
             case Drag::Pending:
                 break;
@@ -274,7 +249,7 @@ private:
     void onScroll(double notches) {
         touch();
         if (ImGui::GetIO().WantCaptureMouse) return;
-        std::optional<Place> const place = placeOf(_cursor);
+        std::optional<WindowLayout::Place> const place = _layout.PlaceOf(_bench.settings.view, _cursor);
         if (!place) return;
         glm::vec2 const centered(2 * place->at.x / place->size.x - 1, 1 - 2 * place->at.y / place->size.y);
         camera().Zoom(std::pow(kZoomPerNotch, static_cast<float>(notches)), centered,
@@ -282,10 +257,11 @@ private:
     }
 
     Pick pickAtCursor() const {
-        std::optional<Place> const place = placeOf(_cursor);
+        std::optional<WindowLayout::Place> const place = _layout.PlaceOf(_bench.settings.view, _cursor);
         std::shared_ptr<Scene const> const& scene = _bench.CurrentScene();
         if (!place || !scene) return {};
-        return PickAt(*scene, _bench.settings.camera.camera, place->size, place->at, kPickReach * _pixelScale);
+        return PickAt(*scene, _bench.settings.camera.camera, place->size, place->at,
+                      kPickReach * _layout.PixelScale());
     }
 
     void click(int modifiers) {
@@ -331,7 +307,7 @@ private:
             std::string const title = "osd_shading: " + _bench.CurrentDocument()->Name();
             glfwSetWindowTitle(_window.Get(), title.c_str());
         }
-        float const aspect = ViewportsOf(_bench.settings.view, sceneSize())[0].Aspect();
+        float const aspect = ViewportsOf(_bench.settings.view, _layout.SceneSize())[0].Aspect();
         if (std::exchange(_panel.wantsFrame, false)) camera().Frame(selectionBounds(scene), aspect);
         if (!_bench.settings.camera.isFramed) {
             _bench.settings.camera = {_bench.settings.camera.For(scene.bounds, aspect), true};
@@ -373,8 +349,8 @@ private:
     void drawScene() {
         ViewOptions view = _bench.settings.view;
         view.overlays |= kSelection;
-        if (_pixelScale != _text->Scale()) _text.emplace(_pixelScale);
-        glm::ivec2 const size = sceneSize();
+        if (_layout.PixelScale() != _text->Scale()) _text.emplace(_layout.PixelScale());
+        glm::ivec2 const size = _layout.SceneSize();
         std::tuple const drawn(_bench.CurrentScene(), camera(), view, _bench.ShownSelection(), size,
                                _panel.showsHud);
         if (_drawn == drawn) return;
@@ -395,8 +371,9 @@ private:
             file = "osd_shading_" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number + ".png";
         }
         try {
-            FrameTarget const target(sceneSize() * _panel.screenshotMultiple);
-            TextLayer text(_pixelScale * static_cast<float>(_panel.screenshotMultiple));
+            int const multiple = _bench.settings.screenshotMultiple;
+            FrameTarget const target(_layout.SceneSize() * multiple);
+            TextLayer text(_layout.PixelScale() * static_cast<float>(multiple));
             drawInto(target, text, _bench.settings.view);
             WritePng(file, target.Read());
             _bench.Say("written: " + file);
@@ -413,13 +390,13 @@ private:
         ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
         flags = _panel.hasKeyboard ? flags | ImGuiConfigFlags_NavEnableKeyboard
                                    : flags & ~ImGuiConfigFlags_NavEnableKeyboard;
-        DrawPanels(_bench, _panel, _size, _unitScale);
+        DrawPanels(_bench, _panel, _layout.Size(), _layout.UnitScale());
         hover();
         ImGui::Render();
 
         glm::vec3 const background = BackgroundColor(_bench.settings.view.background);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        glViewport(0, 0, _frameSize.x, _frameSize.y);
+        glViewport(0, 0, _layout.FrameSize().x, _layout.FrameSize().y);
         glClearColor(background.r, background.g, background.b, 1);
         glClear(GL_COLOR_BUFFER_BIT);
         if (_bench.CurrentScene()) {
@@ -427,7 +404,7 @@ private:
                 frameScene();
                 drawScene();
                 if (std::exchange(_panel.wantsScreenshot, false)) takeScreenshot();
-                _target->Show({_frameSize.x - _target->Size().x, 0});
+                _target->Show({_layout.FrameSize().x - _target->Size().x, 0});
             } catch (GraphicsError const& error) {
                 _bench.Say(error.what());
             }
@@ -454,9 +431,7 @@ private:
     std::optional<FrameTarget> _target;
     PanelState _panel;
 
-    glm::vec2 _size{0};
-    glm::ivec2 _frameSize{0};
-    float _pixelsPerUnit = 1, _pixelScale = 1, _unitScale = 1;
+    WindowLayout _layout;
     int _frames = kSettlingFrames;
     std::optional<std::tuple<std::shared_ptr<Scene const>, Camera, ViewOptions, Selection, glm::ivec2, bool>>
         _drawn;

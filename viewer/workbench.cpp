@@ -52,19 +52,8 @@ void Workbench::attempt(Action const& action) {
     }
 }
 
-SceneRequest Workbench::requestFor(std::shared_ptr<Document> const& document) const {
-    SceneRequest request{document->Model(),
-                         document->Name(),
-                         settings.mesh.Rules(*document->Model()),
-                         settings.shading.Resolve(),
-                         settings.view.Shows(NormalChoice::Subdivided),
-                         settings.deformation};
-    request.options.execution.numThreads = settings.numThreads;
-    return request;
-}
-
 void Workbench::submit(std::shared_ptr<Document> const& document) {
-    SceneRequest request = requestFor(document);
+    SceneRequest request = MakeRequest(settings, document->Model(), document->Name());
     bool const allSubdivided = request.allSubdivided;
     std::int64_t const number = _worker.RequestScene(std::move(request));
     _requests.push_back({number, document, settings, allSubdivided});
@@ -88,6 +77,11 @@ void Workbench::Open(std::string const& name) {
         }
         submit(document);
     });
+}
+
+void Workbench::OpenDropped(std::vector<std::string> const& files) {
+    if (files.empty()) return;
+    EndsIn(files[0], ".txt") ? LoadSettings(files[0]) : Open(files[0]);
 }
 
 void Workbench::LoadSettings(std::string const& file) {
@@ -143,7 +137,8 @@ void Workbench::SaveResult(std::string const& file) {
             _message = file + ": the name of a result ends in .ply, .obj or .usda";
             return;
         }
-        SceneRequest request = requestFor(_document);
+        SceneRequest request = MakeRequest(settings, _document->Model(), _document->Name());
+        request.precision = settings.run.precision.value_or(tool::Precision::Double);
         _worker.RequestFile(std::move(request), file, format);
         _message = "writing " + file;
     });
@@ -360,6 +355,7 @@ std::string Workbench::StateText() const {
     state["undo"] = _document && _document->CanUndo();
     state["redo"] = _document && _document->CanRedo();
     state["shading"] = tool::NameOf(kShadingNames, settings.view.shading);
+    state["splitLine"] = settings.view.splitPosition;
     state["camera"] = settings.camera.Text();
     state["message"] = _message;
     return state.dump();

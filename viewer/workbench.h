@@ -28,6 +28,8 @@ public:
 
     /// Opens a model; the old one stays until the new one is shown, and where that can't be.
     void Open(std::string const& name);
+    /// What is dropped on the window: the first of several files, a model or, where it ends in `.txt`, settings.
+    void OpenDropped(std::vector<std::string> const& files);
     void LoadSettings(std::string const& file);
     void SaveSettings(std::string const& file);
     /// As OBJ, or as `.sharp` by its ending.
@@ -85,7 +87,6 @@ private:
     };
 
     void submit(std::shared_ptr<Document> const& document);
-    SceneRequest requestFor(std::shared_ptr<Document> const& document) const;
     void take(WorkResult const& result);
     template <typename Action>
     void attempt(Action const& action);
