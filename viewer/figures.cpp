@@ -21,6 +21,9 @@ namespace osd_shading::viewer {
 namespace {
 
 constexpr int kLevel = 4;
+// The model stands a little smaller and higher than it could: the caption is below.
+constexpr float kAway = 1.1F;
+constexpr glm::vec2 kUpwards(0, -0.03F);
 
 /// One picture of a sheet.
 struct Panel {
@@ -31,8 +34,9 @@ struct Panel {
     CameraChoice camera;
     std::optional<float> sharpness;  // in place of that of all creases
     std::optional<VertexKind>
-        vertex;      // looks at the first control vertex of this kind, extraordinary if there is one
-    float zoom = 1;  // with `vertex`: share of the model that is seen
+        vertex;          // looks at the first control vertex of this kind, extraordinary if there is one
+    float zoom = 1;      // share of the model that is seen
+    glm::vec3 focus{0};  // without `vertex`: what is looked at, in radii of the model from its middle
 };
 
 /// A sheet: panels row by row.
@@ -118,13 +122,14 @@ Sheet ArtefactSheet() {
     Sheet sheet{"figure2", 2, {480, 480}, {}};
     for (ShadingMode mode : {ShadingMode::Highlight, ShadingMode::Isophotes}) {
         for (NormalChoice normals : {NormalChoice::Limit, NormalChoice::Blended}) {
-            Panel panel = MakePanel("tetrahedron", mode, normals,
-                                    normals == NormalChoice::Limit ? "N_L at a vertex of valence 3, Loop"
-                                                                   : "N_B at a vertex of valence 3, Loop");
+            Panel panel =
+                MakePanel("tetrahedron", mode, normals,
+                          normals == NormalChoice::Limit ? "N_L, in the middle a vertex of valence 3, Loop"
+                                                         : "N_B, in the middle a vertex of valence 3, Loop");
             panel.mesh.scheme = Sdc::SCHEME_LOOP;
             panel.options.level = 6;
             panel.vertex = VertexKind::Smooth;
-            panel.zoom = 0.5F;
+            panel.zoom = 0.9F;
             sheet.panels.push_back(panel);
         }
     }
@@ -180,15 +185,17 @@ Sheet RegionSheet() {
     struct Case {
         char const* model;
         VertexKind kind;
+        float zoom;
         char const* caption;
     };
-    for (Case const& one : {Case{"cross_quads", VertexKind::Smooth, "smooth: one region"},
-                            Case{"cube_dart", VertexKind::Dart, "dart: one region"},
-                            Case{"letter_a", VertexKind::Crease, "crease: two regions"},
-                            Case{"ring", VertexKind::Corner, "corner: a region between each two edges"}}) {
+    for (Case const& one : {Case{"cross_quads", VertexKind::Smooth, 0.7F, "smooth: one region"},
+                            Case{"cube_dart", VertexKind::Dart, 1.1F, "dart: one region"},
+                            Case{"letter_a", VertexKind::Crease, 0.6F, "crease: two regions"},
+                            Case{"ring", VertexKind::Corner, 0.75F, "corner: a region between each two edges"}}) {
         Panel panel = MakePanel(one.model, ShadingMode::Lit, NormalChoice::Blended, one.caption);
         panel.vertex = one.kind;
-        panel.zoom = 0.7F;
+        panel.zoom = one.zoom;
+        panel.view.legend = sheet.panels.size() == 3;  // where there is room; it is the same for all
         panel.view.overlays = kRegions | kCreases;
         panel.options.level = 3;
         sheet.panels.push_back(panel);
@@ -240,6 +247,11 @@ std::vector<Sheet> MakeSheets(std::string const& extraModels) {
     }
     sheets.push_back(
         NormalsSheet("figure10", {{"letter_a", Direction(30, 15)}, {"axe", Direction(60, 15)}}, kCatmark));
+    // The axe's head, where its extraordinary vertices are: as a whole it is long and thin.
+    for (std::size_t i = 3; i < 6; ++i) {
+        sheets.back().panels[i].focus = {0, 0.5F, 0};
+        sheets.back().panels[i].zoom = 0.55F;
+    }
     sheets.push_back(NormalsSheet(
         "figure11", {{"cross_triangles", Direction(35, 22)}, {"tetrahedron", Direction(35, 22)}}, kLoop));
     sheets.push_back(NormalsSheet("figure12", {{"hat", Direction(20, 25)}}, kLoop));
@@ -273,7 +285,14 @@ Image DrawPanel(Panel const& panel, glm::ivec2 size, PictureMaker& maker, SceneB
             view.vertex = vertex;
             camera = CameraAt(*scene, vertex, panel.zoom);
         }
+    } else {
+        Sphere const& bounds = scene->bounds;
+        glm::ivec2 const viewSize = ViewportsOf(view, size)[0].size;
+        camera.camera.Frame({bounds.center + panel.focus * bounds.radius, bounds.radius * panel.zoom * kAway},
+                            static_cast<float>(viewSize.x) / static_cast<float>(viewSize.y));
+        camera.isFramed = true;
     }
+    if (!view.caption.empty()) camera.camera.Pan(kUpwards);
     return maker.Make(scene, camera, view, size);
 }
 
