@@ -243,6 +243,23 @@ TEST_F(Window, WorksWithTheKeyboardAlone) {
     EXPECT_EQ(status(), 0);
 }
 
+TEST_F(Window, WhatIsUnderTheCursorIsFoundAnewWhenTheViewTurns) {
+    SeenEdge const seen = FindSeenEdge("cube_uvs", 3, {kSide, kSide}, 8);
+    open({"cube_uvs", "--level", "3", "--camera", "front", "--split-kind", "none"});
+    waitFor("the model", [](json const& s) { return s["faces"] == 384; });
+    moveTo(seen.pixel + glm::vec2(0, 60));
+    moveTo(seen.pixel);
+    json const first = waitFor("the edge", [](json const& s) { return s["hover"][0].get<int>() >= 0; });
+    input("key F2");  // from the back: what was seen is on the other side
+    json const other = waitFor("the back", [&](json const& s) { return s["camera"] != first["camera"]; });
+    EXPECT_NE(other["hover"], first["hover"]);
+    input("key F1");
+    json const again = waitFor("the front", [&](json const& s) { return s["camera"] == first["camera"]; });
+    EXPECT_EQ(again["hover"], first["hover"]);
+    input("key ctrl+q");
+    EXPECT_EQ(status(), 0);
+}
+
 TEST_F(Window, TakesScreenshotsAtAMultipleOfItsSize) {
     open({"ring", "--level", "2", "--screenshot-multiple", "3"});
     waitFor("the model", [](json const& s) { return s["level"] == 2; });

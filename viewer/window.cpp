@@ -190,6 +190,7 @@ private:
 
     void onKey(int key, int action, int modifiers) {
         touch();
+        _isHoverOld = true;  // the view may turn under the cursor
         if (action == GLFW_RELEASE) return;
         ImGuiIO const& io = ImGui::GetIO();
         bool const leavesPanel = key == GLFW_KEY_ESCAPE && _panel.hasKeyboard && !io.WantTextInput;
@@ -204,6 +205,7 @@ private:
 
     void onButton(int button, int action, int modifiers) {
         touch();
+        _isHoverOld = true;
         if (action == GLFW_RELEASE) {
             if (_drag == Drag::Pending) click(modifiers);
             _drag = Drag::None;
@@ -248,6 +250,7 @@ private:
 
     void onScroll(double notches) {
         touch();
+        _isHoverOld = true;
         if (ImGui::GetIO().WantCaptureMouse) return;
         std::optional<WindowLayout::Place> const place = _layout.PlaceOf(_bench.settings.view, _cursor);
         if (!place) return;
