@@ -44,6 +44,8 @@ public:
     Renderer();
     ~Renderer();
 
+    /// Gives the graphics driver what `Draw` with the same arguments would give it first.     ERRORS: GraphicsError
+    void Prepare(std::shared_ptr<Scene const> const& scene, ViewOptions const& view) { setScene(scene, view); }
     /// Draws into the target that is bound, `size` pixels large. `scale`: pixels per unit of line widths and marks.
     ///
     /// ERRORS: GraphicsError
