@@ -3,9 +3,11 @@
 // Pictures that osd_shading_viewer makes without a display: what their pixels must say, whatever the driver.
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <string>
 #include <tuple>
 
@@ -410,6 +412,40 @@ TEST(WholePicture, MovesWithTheModel) {
     }
     // Tables round differently: some pixels at the edges of bands.
     EXPECT_LT(NumDifferent(rest, Draw(Joined(words, {"--deform", "bend", "--phase", "0"})), 24), 10);
+}
+
+// --- The paper's figures
+// ------------------------------------------------------------------------------------------
+
+TEST(Figures, AreWrittenEachThatOurOwnModelsCanShow) {
+    TemporaryFolder const folder;
+    Outcome const outcome = RunViewer({"--figures", folder.File("new/folder"), "--scale", "0.5"});
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    std::istringstream lines(outcome.out);
+    std::set<std::string> names;
+    for (std::string file; std::getline(lines, file);) {
+        SCOPED_TRACE(file);
+        std::string const name = std::filesystem::path(file).stem().string();
+        names.insert(name);
+        Picture const picture(file);
+        EXPECT_GT(picture.NumCovered(), picture.Width() * picture.Height() / 10);
+        EXPECT_LT(picture.NumCovered(), picture.Width() * picture.Height() * 7 / 10);
+        if (name != "figure2") continue;
+        // The same shape left and right, in other lines.
+        int different = 0, onlyOneIsWhite = 0;
+        int const panel = picture.Width() / 2;
+        for (int y = 0; y < 180; ++y) {
+            for (int x = 0; x < panel; ++x) {
+                Color const left = picture.At(x, y), right = picture.At(x + panel, y);
+                different += left.Distance(right) > 60 ? 1 : 0;
+                onlyOneIsWhite += (left == kWhite) != (right == kWhite) ? 1 : 0;
+            }
+        }
+        EXPECT_GT(different, 3000);
+        EXPECT_LT(onlyOneIsWhite, 20);
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"side_by_side", "figure1", "figure2", "figure3", "figure4", "figure5",
+                                            "figure6", "figure10", "figure11", "figure12", "figure13"}));
 }
 
 // --- Settings and what goes wrong -------------------------------------------------------------------------------
