@@ -129,7 +129,7 @@ Sheet ArtefactSheet() {
             panel.mesh.scheme = Sdc::SCHEME_LOOP;
             panel.options.level = 6;
             panel.vertex = VertexKind::Smooth;
-            panel.zoom = 0.9F;
+            panel.zoom = 1.0F;
             sheet.panels.push_back(panel);
         }
     }

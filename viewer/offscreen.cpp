@@ -45,7 +45,7 @@ OffscreenContext::OffscreenContext() : _display(EGL_NO_DISPLAY), _context(EGL_NO
 OffscreenContext::~OffscreenContext() {
     eglMakeCurrent(_display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(_display, _context);
-    eglTerminate(_display);
+    // The display stays: it is one for the process, and another context may be in use on it.
     eglReleaseThread();
 }
 
