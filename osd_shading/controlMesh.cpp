@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "osd_shading/errors.h"
+#include "osd_shading/numberText.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -19,6 +20,9 @@ namespace {
 // OpenSubdiv keeps sizes and valences in 16 bits.
 constexpr int kLargestFace = 65535;
 
+// It numbers vertices, faces and edges with int, and keeps two numbers for each in one array.
+constexpr int kMostElements = std::numeric_limits<int>::max() / 2;
+
 [[noreturn]] void fail(std::string const& text) { throw InvalidControlMesh(text); }
 
 template <typename T>
@@ -26,16 +30,16 @@ void checkView(ArrayView<T> const& view, char const* name) {
     if (view.size() != 0 && view.data() == nullptr) {
         fail(std::string(name) + " has " + std::to_string(view.size()) + " elements but its pointer is null");
     }
-    if (view.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-        fail(std::string(name) + " has " + std::to_string(view.size()) +
-             " elements; OpenSubdiv's indices end at 2147483647");
+    if (view.size() > static_cast<std::size_t>(kMostElements)) {
+        fail(std::string(name) + " has " + std::to_string(view.size()) + " elements; OpenSubdiv takes at most " +
+             std::to_string(kMostElements));
     }
 }
 
 void checkSharpness(float sharpness, std::string const& element) {
     if (std::isnan(sharpness)) fail("sharpness of " + element + " is not a number; give 0 or more");
     if (sharpness < 0) {
-        fail("sharpness of " + element + " is " + std::to_string(sharpness) + "; give 0 or more");
+        fail("sharpness of " + element + " is " + NumberText(sharpness) + "; give 0 or more");
     }
 }
 
@@ -45,6 +49,15 @@ std::uint64_t edgeKey(int a, int b) {
 }
 
 void checkRules(SubdivisionRules const& rules) {
+    auto const check = [](int value, int last, char const* name) {
+        if (value >= 0 && value <= last) return;
+        fail(std::string("rules.") + name + " is " + std::to_string(value) + ", none that OpenSubdiv has");
+    };
+    check(rules.scheme, Sdc::SCHEME_LOOP, "scheme");
+    check(rules.boundary, Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER, "boundary");
+    check(rules.faceVarying, Sdc::Options::FVAR_LINEAR_ALL, "faceVarying");
+    check(rules.creasing, Sdc::Options::CREASE_CHAIKIN, "creasing");
+    check(rules.triangles, Sdc::Options::TRI_SUB_SMOOTH, "triangles");
     if (rules.scheme != Sdc::SCHEME_CATMARK && rules.scheme != Sdc::SCHEME_LOOP) {
         fail("the bilinear scheme has no normals to subdivide; use Catmull-Clark or Loop");
     }
@@ -178,6 +191,10 @@ void ValidateControlMesh(ControlMesh const& mesh) {
     checkRules(mesh.rules);
     if (mesh.numVertices <= 0)
         fail("numVertices is " + std::to_string(mesh.numVertices) + "; a mesh needs vertices");
+    if (mesh.numVertices > kMostElements) {
+        fail("numVertices is " + std::to_string(mesh.numVertices) + "; OpenSubdiv takes at most " +
+             std::to_string(kMostElements));
+    }
     if (mesh.faceSizes.empty()) fail("the mesh has no faces");
     checkFaces(mesh);
     checkValences(mesh);

@@ -50,7 +50,8 @@ struct ControlMesh {
 ///
 /// Refused are only: counts or indices out of range, faces of fewer than 3 vertices or with a repeated vertex,
 /// other than triangles in Loop, creases that are no edges, NaN or negative sharpness, null or inconsistent
-/// views, and the bilinear scheme.     COST: one pass over the faces; a hash of the crease entries.
+/// views, rules that OpenSubdiv doesn't have, the bilinear scheme, and more than OpenSubdiv can number (2^30 - 1 of
+/// anything, 65535 faces or edges at a vertex).     COST: one pass over the faces; a hash of the crease entries.
 OSD_SHADING_API void ValidateControlMesh(ControlMesh const& mesh);
 
 }  // namespace v1

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "osd_shading/fieldRefiner.h"
+#include "osd_shading/inputChecks.h"
 #include "osd_shading/limitMasks.h"
 #include "osd_shading/oneShotShading.h"
 #include "osd_shading/vectorMath.h"
@@ -359,12 +360,13 @@ GeometryCheck check(RefinedTopology const& topology, PointView<Real> positions, 
     }
     CreaseRegions const regions(topology, topology.LastLevel(), 1);
     LimitStep<Real> const limit(topology, topology.LastLevel(), regions, 1, result.options.limits.normals);
-    if (result.NumVertices() != regions.NumVertices() ||
-        result.limitNormals.size() != static_cast<std::size_t>(regions.NumValues())) {
-        throw InvalidOptions("the result was not shaded from this mesh: it has " +
-                             std::to_string(result.NumVertices()) + " vertices, not " +
-                             std::to_string(regions.NumVertices()));
-    }
+    auto const requireCount = [](std::size_t have, int want, char const* what) {
+        if (have == static_cast<std::size_t>(want)) return;
+        throw InvalidOptions("the result was not shaded from this mesh: it has " + std::to_string(have) + " " +
+                             what + ", not " + std::to_string(want));
+    };
+    requireCount(result.positions.size(), regions.NumVertices(), "vertices");
+    requireCount(result.limitNormals.size(), regions.NumValues(), "limit normals");
     std::vector<Vec3<Real>> limits;
     if (result.options.limits.positions == PositionKind::Limit) {
         limits = result.positions;
@@ -400,15 +402,6 @@ GeometryCheck check(RefinedTopology const& topology, PointView<Real> positions, 
     return check;
 }
 
-template <typename Real>
-void checkCount(PointView<Real> positions, int numVertices) {
-    if (positions.size() != static_cast<std::size_t>(numVertices) || positions.data() == nullptr ||
-        positions.stride() < 3) {
-        throw InvalidControlMesh("positions has " + std::to_string(positions.size()) +
-                                 " elements; the mesh needs " + std::to_string(numVertices) + ", one per vertex");
-    }
-}
-
 }  // namespace
 
 bool GeometryCheck::Passes(double tolerance) const {
@@ -420,7 +413,7 @@ bool GeometryCheck::Passes(double tolerance) const {
 template <typename Real>
 GeometryCheck CheckGeometry(ControlMesh const& mesh, PointView<Real> positions, ShadingResult<Real> const& result) {
     ValidateControlMesh(mesh);
-    checkCount(positions, mesh.numVertices);
+    CheckPoints(positions, static_cast<std::size_t>(mesh.numVertices), "positions", "vertex");
     ResolveOptions(result.options, mesh);  // refuses what no result has
     return check(RefinedTopology(mesh, result.options.level), positions, result);
 }
@@ -429,7 +422,7 @@ template <typename Real>
 GeometryCheck CheckGeometry(Far::TopologyRefiner const& refiner, PointView<Real> positions,
                             ShadingResult<Real> const& result) {
     ValidateRefiner(refiner);
-    checkCount(positions, refiner.GetLevel(0).GetNumVertices());
+    CheckPoints(positions, static_cast<std::size_t>(refiner.GetLevel(0).GetNumVertices()), "positions", "vertex");
     ResolveOptions(result.options, refiner);
     return check(RefinedTopology(refiner, result.options.level), positions, result);
 }

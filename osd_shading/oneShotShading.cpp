@@ -12,6 +12,7 @@
 #include "osd_shading/errors.h"
 #include "osd_shading/extraordinaryVertices.h"
 #include "osd_shading/limitFrames.h"
+#include "osd_shading/numberText.h"
 #include "osd_shading/parallel.h"
 #include "osd_shading/refinedPrimvars.h"
 #include "osd_shading/startNormals.h"
@@ -30,6 +31,18 @@ void StageClock::End(char const* name, double done) {
 ShadingOptions ResolveOptions(ShadingOptions options, bool hasIrregularFaces, Sdc::SchemeType scheme) {
     auto const fail = [](std::string const& text) { throw InvalidOptions(text); };
     bool const hasNgons = hasIrregularFaces && scheme == Sdc::SCHEME_CATMARK;
+    auto const checkEnum = [&](auto value, auto last, char const* name) {
+        int const number = static_cast<int>(value);
+        if (number >= 0 && number <= static_cast<int>(last)) return;
+        fail(std::string(name) + " is " + std::to_string(number) + ", none that there is");
+    };
+    checkEnum(options.startNormals.kind, StartNormalKind::User, "startNormals.kind");
+    checkEnum(options.subdividedNormals.averaging, NormalAveraging::Spherical, "subdividedNormals.averaging");
+    checkEnum(options.weights.scheme, WeightScheme::One, "weights.scheme");
+    checkEnum(options.weights.sharpVertices, SharpVertexWeight::PerRegion, "weights.sharpVertices");
+    checkEnum(options.weights.darts, DartWeight::LikeSharp, "weights.darts");
+    checkEnum(options.limits.positions, PositionKind::Refined, "limits.positions");
+    checkEnum(options.limits.normals, LimitNormalKind::Exact, "limits.normals");
     int const level = options.level;
     if (level < 0 || level > 15) fail("level is " + std::to_string(level) + "; it must be 0 to 15");
     if (level == 0 && hasNgons) {
@@ -61,7 +74,7 @@ ShadingOptions ResolveOptions(ShadingOptions options, bool hasIrregularFaces, Sd
     }
     double const exponent = options.weights.exponent;
     if (!(exponent > 0) || !std::isfinite(exponent)) {
-        fail("the exponent of the blend weight is " + std::to_string(exponent) + "; it must be positive");
+        fail("the exponent of the blend weight is " + NumberText(exponent) + "; it must be positive");
     }
     int const steps = options.subdividedNormals.sphericalSteps;
     if (steps < 0 || steps > 100) fail("sphericalSteps is " + std::to_string(steps) + "; it must be 0 to 100");

@@ -321,7 +321,10 @@ PrimvarTable<Real> BuildPrimvarTable(ControlMesh const& mesh, std::vector<FaceVa
     for (std::size_t i = 0; i < channels.size(); ++i) {
         FaceVaryingChannel const& channel = channels[i];
         std::string const name = "channel " + std::to_string(i);
-        if (channel.indices.size() != mesh.faceVertices.size() || channel.indices.data() == nullptr) {
+        if (!channel.indices.empty() && channel.indices.data() == nullptr) {
+            throw InvalidControlMesh(name + ": the pointer of its indices is null");
+        }
+        if (channel.indices.size() != mesh.faceVertices.size()) {
             throw InvalidControlMesh(name + " has " + std::to_string(channel.indices.size()) +
                                      " indices; the mesh has " + std::to_string(mesh.faceVertices.size()) +
                                      " face corners");
@@ -335,6 +338,7 @@ PrimvarTable<Real> BuildPrimvarTable(ControlMesh const& mesh, std::vector<FaceVa
         indices.push_back(channel.indices);
         counts.push_back(channel.numValues);
     }
+    CheckVertexMemory(mesh, options.execution.memoryLimit);
     RefinedTopology const base(mesh, 0, indices, counts);
     return build<Real>(base.Refiner(), static_cast<int>(channels.size()), options);
 }

@@ -209,6 +209,18 @@ LevelMasks<Real> RefinedTopology::RecordMasks(int childLevel, MaskKind kind) con
 template LevelMasks<float> RefinedTopology::RecordMasks<float>(int, MaskKind) const;
 template LevelMasks<double> RefinedTopology::RecordMasks<double>(int, MaskKind) const;
 
+void CheckVertexMemory(ControlMesh const& mesh, std::uint64_t memoryLimit) {
+    // What OpenSubdiv keeps of a vertex without faces, and what validation takes meanwhile: an estimate from below.
+    constexpr std::uint64_t kPerVertex = 30;
+    if (memoryLimit == 0 || mesh.numVertices <= 0) return;
+    std::uint64_t const bytes = kPerVertex * static_cast<std::uint64_t>(mesh.numVertices);
+    if (bytes <= memoryLimit) return;
+    throw MemoryLimitExceeded("the " + std::to_string(mesh.numVertices) + " vertices of level 0 would take about " +
+                                  std::to_string(bytes) + " bytes, more than the limit of " +
+                                  std::to_string(memoryLimit),
+                              bytes);
+}
+
 void ValidateRefiner(Far::TopologyRefiner const& refiner) {
     if (refiner.GetSchemeType() == Sdc::SCHEME_BILINEAR) {
         throw InvalidControlMesh("the bilinear scheme has no normals to subdivide; use Catmull-Clark or Loop");

@@ -5,6 +5,7 @@
 
 #include <opensubdiv/far/topologyRefiner.h>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -79,6 +80,10 @@ private:
     int _lastLevel = 0;
     bool _hasIrregularFaces = false;
 };
+
+/// Throws MemoryLimitExceeded where the vertices of level 0 alone take more than `memoryLimit` bytes (0: no limit),
+/// for doors that are given no points: a number of vertices that is a mistake takes no memory then.
+void CheckVertexMemory(ControlMesh const& mesh, std::uint64_t memoryLimit);
 
 /// Throws InvalidControlMesh unless level 0 of `refiner` keeps the conditions of a ControlMesh.
 void ValidateRefiner(Far::TopologyRefiner const& refiner);

@@ -352,6 +352,7 @@ std::unique_ptr<Far::LimitStencilTable const> MakeFarLimitStencilTable(StencilRo
 }
 
 ShadingStencils BuildShadingStencils(ControlMesh const& mesh, ShadingOptions const& options) {
+    CheckVertexMemory(mesh, options.execution.memoryLimit);
     RefinedTopology const base(mesh, 0);
     return BuildShadingStencils(base.Refiner(), options);
 }

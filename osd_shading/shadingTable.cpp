@@ -23,7 +23,10 @@ using tables::TableData;
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// What a table can't hold, in words.
-void checkOptions(ShadingOptions const& options) {
+void checkOptions(ShadingOptions const& options, ValueOrder order) {
+    if (order != ValueOrder::Tiles && order != ValueOrder::OpenSubdiv) {
+        throw InvalidOptions("order is " + std::to_string(static_cast<int>(order)) + ", none that there is");
+    }
     if (options.subdividedNormals.averaging != NormalAveraging::Linear) {
         throw InvalidOptions("a table holds linear averaging of normals only; use ShadeSubdivision for the others");
     }
@@ -161,9 +164,10 @@ private:
 }  // namespace
 
 ShadingTable::ShadingTable(ControlMesh const& mesh, ShadingOptions const& options, ValueOrder order) {
+    CheckVertexMemory(mesh, options.execution.memoryLimit);
     ValidateControlMesh(mesh);
     ShadingOptions const resolved = ResolveOptions(options, mesh);
-    checkOptions(resolved);
+    checkOptions(resolved, order);
     checkSize(static_cast<std::int64_t>(mesh.faceSizes.size()), static_cast<std::int64_t>(mesh.faceVertices.size()),
               mesh.rules.scheme, resolved.level);
     _data = build(RefinedTopology(mesh, 0), resolved, order);
@@ -172,7 +176,7 @@ ShadingTable::ShadingTable(ControlMesh const& mesh, ShadingOptions const& option
 ShadingTable::ShadingTable(Far::TopologyRefiner const& refiner, ShadingOptions const& options, ValueOrder order) {
     ValidateRefiner(refiner);
     ShadingOptions const resolved = ResolveOptions(options, refiner);
-    checkOptions(resolved);
+    checkOptions(resolved, order);
     Far::TopologyLevel const base = refiner.GetLevel(0);
     checkSize(base.GetNumFaces(), base.GetNumFaceVertices(), refiner.GetSchemeType(), resolved.level);
     _data = build(RefinedTopology(refiner, 0), resolved, order);

@@ -101,8 +101,9 @@ std::uint64_t EstimateShadingBytes(MeshSize const& size, int level, std::size_t 
                          perBoundaryEdge * edges * static_cast<double>(size.numFaceCorners) +
                          perVertex * static_cast<double>(size.numVertices) +
                          2.0 * static_cast<double>(4 + realSize) * static_cast<double>(size.numNgonTerms) + 2e6;
+    // Also where infinite factors met zero ones.
     constexpr double kMost = 9.2e18;
-    return static_cast<std::uint64_t>(bytes < kMost ? bytes : kMost);
+    return static_cast<std::uint64_t>(bytes < kMost ? std::max(bytes, 0.0) : kMost);
 }
 
 template <typename Real>
@@ -122,7 +123,10 @@ ShadingResult<Real> ShadeSubdivision(ControlMesh const& mesh, ShadingInput<Real>
     for (std::size_t i = 0; i < input.faceVaryingData.size(); ++i) {
         FaceVaryingView<Real> const& data = input.faceVaryingData[i];
         std::string const name = "faceVaryingData " + std::to_string(i);
-        if (data.indices.size() != mesh.faceVertices.size() || data.indices.data() == nullptr) {
+        if (!data.indices.empty() && data.indices.data() == nullptr) {
+            fail(name + ": the pointer of its indices is null");
+        }
+        if (data.indices.size() != mesh.faceVertices.size()) {
             fail(name + " has " + std::to_string(data.indices.size()) + " indices; the mesh has " +
                  std::to_string(mesh.faceVertices.size()) + " face corners");
         }

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -38,6 +40,15 @@ TEST(FrameThreads, CallEachChunkOnceAndOneAtATimePerThread) {
             for (auto const& n : calls) EXPECT_EQ(n, 1);
         }
     }
+}
+
+TEST(FrameThreads, ANumberThatIsAMistakeTakesNotAllThreadsOfTheSystem) {
+    FrameThreads threads(std::numeric_limits<int>::max());
+    EXPECT_GE(threads.NumThreads(), 1);
+    EXPECT_LE(threads.NumThreads(), static_cast<int>(std::max(256U, std::thread::hardware_concurrency())));
+    std::atomic<int> numCalls{0};
+    threads.Run(1000, [&](int, int) { ++numCalls; });
+    EXPECT_EQ(numCalls, 1000);
 }
 
 TEST(FrameThreads, RunAgainAtOnceManyTimes) {

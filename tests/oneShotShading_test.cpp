@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "osd_shading/blendedNormals.h"
@@ -358,9 +359,10 @@ TEST(OneShotShading, ResolvedOptionsNameWhatIsWrong) {
               "inverse-limit weights can't start at level 0, where the mesh has faces "
               "other than quads; start at 1");
     double const nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-    for (double const wrong : {0.0, -1.0, nan, infinity}) {
-        EXPECT_EQ(errorWith([&](O& o) { o.weights.exponent = wrong; }),
-                  "the exponent of the blend weight is " + std::to_string(wrong) + "; it must be positive");
+    for (auto const& [wrong, word] : {std::pair{0.0, "0"}, std::pair{-1.0, "-1"}, std::pair{-1e-300, "-1e-300"},
+                                      std::pair{nan, "nan"}, std::pair{infinity, "inf"}}) {
+        EXPECT_EQ(errorWith([&, exponent = wrong](O& o) { o.weights.exponent = exponent; }),
+                  "the exponent of the blend weight is " + std::string(word) + "; it must be positive");
     }
     EXPECT_EQ(errorWith([](O& o) { o.subdividedNormals.sphericalSteps = -1; }),
               "sphericalSteps is -1; it must be 0 to 100");

@@ -3,7 +3,6 @@
 // The program osd_shade, run as people run it.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "tests/ioFiles.h"
+#include "tests/toolProgram.h"
 
 namespace {
 
@@ -25,43 +25,7 @@ using ioFiles::ReadBytes;
 using ioFiles::TemporaryFolder;
 using ioFiles::WriteBytes;
 using nlohmann::json;
-using Words = std::vector<std::string>;
-
-std::string ModelPath(std::string const& name) { return std::string(OSD_SHADING_MODELS) + "/" + name + ".obj"; }
-
-std::string Quoted(std::string const& word) {
-    std::string quoted = "'";
-    for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
-
-std::string CommandOf(Words const& words) {
-    std::string command = Quoted(OSD_SHADE_PROGRAM);
-    for (std::string const& word : words) command += " " + Quoted(word);
-    return command;
-}
-
-struct Outcome {
-    int status = -1;  ///< exit status; -1: ended by a signal
-    std::string out, error;
-
-    std::size_t NumErrorLines() const {
-        return static_cast<std::size_t>(std::count(error.begin(), error.end(), '\n'));
-    }
-};
-
-Outcome RunShell(std::string const& command) {
-    TemporaryFolder const folder;
-    int const status = std::system(
-        ("{ " + command + "; } > " + Quoted(folder.File("out")) + " 2> " + Quoted(folder.File("error"))).c_str());
-    Outcome outcome;
-    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    outcome.out = ReadBytes(folder.File("out"));
-    outcome.error = ReadBytes(folder.File("error"));
-    return outcome;
-}
-
-Outcome RunTool(Words const& words) { return RunShell(CommandOf(words)); }
+using namespace toolProgram;
 
 /// Runs the program with a report, and returns that; fails the test where the program does.
 json ReportOf(Words words) {
@@ -70,16 +34,6 @@ json ReportOf(Words words) {
     Outcome const outcome = RunTool(words);
     EXPECT_EQ(outcome.status, 0) << CommandOf(words) << "\n" << outcome.error;
     return json::parse(ReadBytes(folder.File("report.json")), nullptr, false);
-}
-
-/// Expects one line of error that has `part`.
-void ExpectRefused(Words const& words, std::string const& part) {
-    Outcome const outcome = RunTool(words);
-    EXPECT_EQ(outcome.status, 2) << CommandOf(words);
-    EXPECT_EQ(outcome.NumErrorLines(), 1U) << outcome.error;
-    EXPECT_EQ(outcome.error.rfind("osd_shade: error: ", 0), 0U) << outcome.error;
-    EXPECT_NE(outcome.error.find(part), std::string::npos) << "'" << part << "' is not in: " << outcome.error;
-    EXPECT_EQ(outcome.out, "");
 }
 
 constexpr char kOneQuad[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";

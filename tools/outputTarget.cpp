@@ -78,6 +78,8 @@ void RequireWritable(std::string const& path) {
     // An old file that its owner made read-only stays.
     if (access(path.c_str(), F_OK) == 0 && access(path.c_str(), W_OK) != 0) refuse(errno);
     fs::path const folder = (target.empty() ? fs::path(path) : target).parent_path();
+    // Of a file in its place, access would only say that it can't be searched.
+    if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) refuse(ENOTDIR);
     if (!folder.empty() && access(folder.c_str(), W_OK | X_OK) != 0) refuse(errno);
 }
 

@@ -12,6 +12,7 @@
 
 #else
 
+#    include <algorithm>
 #    include <atomic>
 #    include <condition_variable>
 #    include <cstdint>
@@ -60,6 +61,9 @@ struct FrameThreads::Impl {
 
 struct FrameThreads::Impl {
     explicit Impl(int numThreads) {
+        // A number that is a mistake must not take all threads of the system.
+        constexpr unsigned kMany = 256;
+        numThreads = std::min(numThreads, static_cast<int>(std::max(kMany, std::thread::hardware_concurrency())));
         try {
             for (int i = 1; i < numThreads; ++i) {
                 _threads.emplace_back([this, i] { serve(i); });

@@ -13,8 +13,8 @@ namespace tables {
 /// it, else its own.
 class FrameThreads {
 public:
-    /// `numThreads`: 1 or more, the caller's among them. A system that is short of threads gives fewer,
-    /// oneTBB no more than the machine has.
+    /// `numThreads`: 1 or more, the caller's among them. A system that is short of threads gives fewer;
+    /// oneTBB no more than the machine has, the library itself no more than that or 256.
     explicit FrameThreads(int numThreads);
     ~FrameThreads();
     FrameThreads(FrameThreads const&) = delete;
