@@ -9,4 +9,10 @@ namespace osd_shading::tests {
 /// a file of its own, for a compiler that sees `free` next to what it was called on takes it for a mistake.
 std::int64_t NumAllocations();
 
+/// How many of those were not given back yet.
+std::int64_t NumLiveAllocations();
+
+/// Lets the allocation `number` from now on fail, 1 being the next; 0: none.
+void FailAllocation(std::int64_t number);
+
 }  // namespace osd_shading::tests

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "osd_shading/io/errors.h"
 
@@ -196,9 +197,10 @@ void FileReplacement::openTemporary(unsigned mode, bool replaces) {
         auto const now = std::chrono::steady_clock::now().time_since_epoch().count();
         std::string const name = ".osd_shading_" + std::to_string(processNumber()) + "_" +
                                  std::to_string(numCalls++) + "_" + std::to_string(now) + ".tmp";
-        std::string const temporary = (folder / name).string();
+        std::string temporary = (folder / name).string();
         _file = openFile(temporary.c_str(), kCreateFlags, static_cast<OpenMode>(kNewFileMode));
-        if (_file >= 0) _temporary = temporary;
+        // Moved, for a copy could run out of memory, and leave the file that nobody knows of.
+        if (_file >= 0) _temporary = std::move(temporary);
         if (_file < 0 && errno != EEXIST) fail(errno);
     }
     if (_file < 0) fail(EEXIST);
