@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// Every model in every way that it can be shaded: no crash, no NaN, and either a result that passes CheckGeometry or a
-// refusal that the library documents.
+// Every model in every way that it can be shaded: no crash, no NaN, and either a result that passes CheckGeometry
+// or a refusal that the library documents.
 //
-// CI runs all models, and of the options a covering array: every pair of values of any two options stands in a row of it.
-// A model runs all rows, one with many faces every fourth, and levels that give more than 3000 faces are cut to those
-// that do not. A full run (OSD_SHADING_TEST_FULL) shades all levels 0 to 3 with the product of boundary and creasing rules,
-// triangle rules, variants, darts and weight schemes.
+// CI runs all models, and of the options a covering array: every pair of values of any two options stands in a row
+// of it. A model runs all rows, one with many faces every fourth, and levels that give more than 3000 faces are cut
+// to those that do not. A full run (OSD_SHADING_TEST_FULL) shades all levels 0 to 3 with the product of boundary
+// and creasing rules, triangle rules, variants, darts and weight schemes.
 
 #include <gtest/gtest.h>
 
@@ -35,8 +35,9 @@ namespace {
 /// One value of each option, as its number.
 using Row = std::vector<int>;
 
-/// Rows in which every pair of values of two options stands, `counts[i]` being the number of values of option i. Greedy:
-/// each row begins with the first pair that is missing, and takes for each other option the value that adds most pairs.
+/// Rows in which every pair of values of two options stands, `counts[i]` being the number of values of option i.
+/// Greedy: each row begins with the first pair that is missing, and takes for each other option the value that adds
+/// most pairs.
 std::vector<Row> coveringArray(std::vector<int> const& counts) {
     std::size_t const n = counts.size();
     // By options i < j and their values: whether the pair is still missing.
@@ -56,7 +57,8 @@ std::vector<Row> coveringArray(std::vector<int> const& counts) {
     };
     std::vector<Row> rows;
     for (;;) {
-        auto const first = std::find_if(isMissing.begin(), isMissing.end(), [](auto const& pair) { return pair.second; });
+        auto const first =
+            std::find_if(isMissing.begin(), isMissing.end(), [](auto const& pair) { return pair.second; });
         if (first == isMissing.end()) return rows;
         Row row(n, -1);
         row[Index(first->first[0])] = first->first[2];
@@ -109,7 +111,7 @@ struct Choice {
     ShadingOptions options;
 };
 
-std::vector<int> const kCounts = {4, 3, 2, 2, 6, 3, 3, 5, 3, 2, 3, 2, 2, 2, 2};
+std::vector<int> const kCounts = {4, 3, 2, 2, 6, 3, 3, 5, 3, 2, 3, 2, 2, 3, 2};
 
 Choice choiceOf(Row const& row) {
     Choice choice;
@@ -142,12 +144,13 @@ std::vector<Choice> allChoices(int level) {
                 for (int scheme = 0; scheme < 5; ++scheme) {
                     for (int sharp = 0; sharp < 3; ++sharp) {
                         for (int darts = 0; darts < 2; ++darts) {
-                            choices.push_back(choiceOf({level, boundary, creasing, triangles, 0, 0, 0, scheme, sharp,
-                                                        darts, 0, 0, 0, 0, 0}));
+                            choices.push_back(choiceOf({level, boundary, creasing, triangles, 0, 0, 0, scheme,
+                                                        sharp, darts, 0, 0, 0, 0, 0}));
                         }
                     }
                 }
-                choices.push_back(choiceOf({level, boundary, creasing, triangles, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+                choices.push_back(
+                    choiceOf({level, boundary, creasing, triangles, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
                 choices.back().options = SmoothPreset(level);  // variant D
             }
         }
@@ -177,7 +180,8 @@ std::string refusalOf(ShadingOptions const& options, bool hasNgons) {
     if (!hasNgons) return {};
     if (options.level == 0) return "level is 0, but the mesh has faces other than quads";
     auto const kind = options.startNormals.kind;
-    if (options.startNormals.level == 0 && (kind == StartNormalKind::Limit || kind == StartNormalKind::LimitSmoothed)) {
+    if (options.startNormals.level == 0 &&
+        (kind == StartNormalKind::Limit || kind == StartNormalKind::LimitSmoothed)) {
         return "limit normals can't start at level 0";
     }
     if (options.weights.level == 0 && options.weights.scheme == WeightScheme::InverseLimit) {
@@ -239,7 +243,8 @@ public:
         : _model(model), _scheme(scheme), _hasNgons(scheme == Sdc::SCHEME_CATMARK && !allFacesHave(model, 4)) {
         _points.assign(model.positions.begin(), model.positions.end());
         // Any normals do.
-        for (std::size_t i = 0; i < _points.size(); ++i) _normals.push_back(std::sin(1 + 3.3F * static_cast<float>(i)));
+        for (std::size_t i = 0; i < _points.size(); ++i)
+            _normals.push_back(std::sin(1 + 3.3F * static_cast<float>(i)));
         _normalsInDouble.assign(_normals.begin(), _normals.end());
     }
 
@@ -289,14 +294,16 @@ public:
 private:
     std::string nameOf(Choice const& choice) const {
         ShadingOptions const& o = choice.options;
-        std::string text = _model.name + (_scheme == Sdc::SCHEME_LOOP ? " in Loop" : "") + ": level, boundary, creasing, "
-                           "triangles, start normals and level, averaging, weights, sharp vertices, darts, level, positions, limit normals:";
+        std::string text = _model.name + (_scheme == Sdc::SCHEME_LOOP ? " in Loop" : "") +
+                           ": level, boundary, creasing, "
+                           "triangles, start normals and level, averaging, weights, sharp vertices, darts, level, "
+                           "positions, limit normals:";
         for (int const number :
-             {o.level, static_cast<int>(choice.boundary), static_cast<int>(choice.creasing), static_cast<int>(choice.triangles), static_cast<int>(o.startNormals.kind),
-              o.startNormals.level, static_cast<int>(o.subdividedNormals.averaging),
-              static_cast<int>(o.weights.scheme), static_cast<int>(o.weights.sharpVertices),
-              static_cast<int>(o.weights.darts), o.weights.level, static_cast<int>(o.limits.positions),
-              static_cast<int>(o.limits.normals)}) {
+             {o.level, static_cast<int>(choice.boundary), static_cast<int>(choice.creasing),
+              static_cast<int>(choice.triangles), static_cast<int>(o.startNormals.kind), o.startNormals.level,
+              static_cast<int>(o.subdividedNormals.averaging), static_cast<int>(o.weights.scheme),
+              static_cast<int>(o.weights.sharpVertices), static_cast<int>(o.weights.darts), o.weights.level,
+              static_cast<int>(o.limits.positions), static_cast<int>(o.limits.normals)}) {
             text += " " + std::to_string(number);
         }
         return text;
@@ -327,9 +334,9 @@ void sweepAll(Case const& c, Counts& counts) {
         for (Choice const& choice : allChoices(level)) {
             // Geometry does not depend on the weights: the first scheme and the smooth variant are checked.
             ShadingOptions const& o = choice.options;
-            bool const isChecked = o.weights.sharpVertices == SharpVertexWeight::Zero &&
-                                   o.weights.darts == DartWeight::LikeSmooth &&
-                                   (o.weights.scheme == WeightScheme::OneRing || o.weights.scheme == WeightScheme::One);
+            bool const isChecked =
+                o.weights.sharpVertices == SharpVertexWeight::Zero && o.weights.darts == DartWeight::LikeSmooth &&
+                (o.weights.scheme == WeightScheme::OneRing || o.weights.scheme == WeightScheme::One);
             c.Run(choice, isChecked, /*hasTable=*/isChecked, counts);
         }
     }
@@ -348,8 +355,8 @@ void sweep(std::vector<std::string> const& files) {
             IsFullRun() ? sweepAll(c, counts) : sweepSample(c, counts);
         }
     }
-    std::printf("%zu models: %d shaded, %d of them checked and %d with a table; %d refused\n", files.size(), counts.numShaded,
-                counts.numChecked, counts.numTables, counts.numRefused);
+    std::printf("%zu models: %d shaded, %d of them checked and %d with a table; %d refused\n", files.size(),
+                counts.numShaded, counts.numChecked, counts.numTables, counts.numRefused);
     EXPECT_GT(counts.numShaded, 4 * counts.numRefused);
 }
 
