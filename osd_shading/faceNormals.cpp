@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "osd_shading/faceNormals.h"
 
+#include <cmath>
+
 #include "osd_shading/parallel.h"
 #include "osd_shading/vectorMath.h"
 
@@ -43,7 +45,7 @@ void WeighCorners(std::vector<Vec3<Real>> const& points, FaceWeight weight,
         CornerSides<Real> const sides(points, corners[i]);
         Vec3<Real> const after = weight == FaceWeight::CornerArea ? scaled(sides.after, longest) : sides.after;
         Vec3<Real> const before = weight == FaceWeight::CornerArea ? scaled(sides.before, longest) : sides.before;
-        weights[i] = CornerWeight(weight, after, before);
+        weights[i] = std::fmax(CornerWeight(weight, after, before), LeastWeight(weight, Real(1)));
     }
 }
 

@@ -30,6 +30,13 @@ Real CornerWeight(FaceWeight weight, Vec3<Real> const& after, Vec3<Real> const& 
     }
 }
 
+/// The least that a face counts, `longest` being the longest of the sides at the vertex: where the sides of every
+/// corner run along each other rounding would decide which face counts, and whether any does.
+template <typename Real>
+Real LeastWeight(FaceWeight weight, Real longest) {
+    return weight == FaceWeight::CornerArea ? kVanishing<Real> * longest * longest : kVanishing<Real>;
+}
+
 /// The unit normal by its vector area (Newell) of a polygon of `size` points, `pointAt(0)` and on; zero where it
 /// has none.
 template <typename Real, typename PointAt>

@@ -174,6 +174,11 @@ struct ShadingEvaluator::Impl {
     void finishLeaf(TileClass const& tileClass, int numPoints, float doubt1, float doubt2, Place const& place,
                     bool hasTangents, Visit& visit);
     void settle(LeafFrame& leaf, TileClass const& tileClass, Place const& place, int firstValue, Visit& visit);
+    void replaceVanished(LeafFrame const& leaf, TileClass const& tileClass, Place const& place, int firstValue,
+                         Visit& visit);
+    /// N_L in double precision, and whether it is an average, which no tangents make.
+    Vec3<double> exactLimit(TileClass const& tileClass, Place const& place, int firstValue, int point, Visit& visit,
+                            bool& isAverage);
     void spoil(int numPoints, std::size_t value, std::size_t weight, bool hasTangents, LeafBlend blend,
                Worker const& worker) const;
     /// Whether a leaf's tangents are needed; where b varies N_S is finished along with N_L.
@@ -535,10 +540,12 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
         alone.positions = alone.limitNormals = {};
         alone.tangent1 = alone.tangent2 = {};
         kernels->finish(alone);
+        replaceVanished(alone, tileClass, place, static_cast<int>(value), visit);
         leaf.blendedNormals = leaf.subdividedNormals = {};
         leaf.subdivided = {};
     }
     kernels->finish(leaf);
+    if (!hasTangents) replaceVanished(leaf, tileClass, place, static_cast<int>(value), visit);
     if (blend == LeafBlend::One && visit.hasNormals) leaf.subdivided = worker.subdivided;  // may stand in for N_L
     if (!hasTangents && blend == LeafBlend::Zero && leaf.subdividedNormals.data != nullptr) {
         for (std::size_t i = 0; i < index(numPoints); ++i) {
@@ -561,7 +568,7 @@ void ShadingEvaluator::Impl::finishLeaf(TileClass const& tileClass, int numPoint
         turn(du, f.a, f.b);
         turn(dv, f.c, f.d);
     }
-    if (leaf.numDoubtful > 0) settle(leaf, tileClass, place, static_cast<int>(value), visit);
+    if (hasTangents && leaf.numDoubtful > 0) settle(leaf, tileClass, place, static_cast<int>(value), visit);
 
     std::vector<float> const& weights = data->blendWeights.empty() ? data->blendPowers : data->blendWeights;
     if (numbers.data != nullptr) {
@@ -600,13 +607,24 @@ bool findAverage(AverageNormals const& averages, int point, LocalPoint const* po
     };
     auto const last = found + 1 == averages.normals.end() ? averages.faces.end()
                                                           : averages.faces.begin() + (found + 1)->firstFace;
+    auto const first = averages.faces.begin() + found->firstFace;
+    auto const sidesOf = [&](auto face) {
+        Vec3<double> const p = pointOfRow(face->rows[face->corner]);
+        return std::pair(pointOfRow(face->rows[(face->corner + 1) % face->size]) - p,
+                         pointOfRow(face->rows[(face->corner + face->size - 1) % face->size]) - p);
+    };
+    double longest = 0;
+    for (auto face = first; face != last && averages.weight == FaceWeight::CornerArea; ++face) {
+        auto const [after, before] = sidesOf(face);
+        longest = std::fmax(longest, std::fmax(Length(after), Length(before)));
+    }
     NormalSum<double> sum;
-    for (auto face = averages.faces.begin() + found->firstFace; face != last; ++face) {
+    for (auto face = first; face != last; ++face) {
         Vec3<double> corners[4];
         for (int i = 0; i < face->size; ++i) corners[i] = pointOfRow(face->rows[i]);
-        Vec3<double> const p = corners[face->corner];
-        double const weight = CornerWeight(averages.weight, corners[(face->corner + 1) % face->size] - p,
-                                           corners[(face->corner + face->size - 1) % face->size] - p);
+        auto const [after, before] = sidesOf(face);
+        double const weight =
+            std::fmax(CornerWeight(averages.weight, after, before), LeastWeight(averages.weight, longest));
         sum.Add(UnitPolygonNormal<double>(face->size, [&](int i) { return corners[i]; }), weight);
     }
     normal = sum.Unit();
@@ -637,25 +655,49 @@ void ShadingEvaluator::Impl::spoil(int numPoints, std::size_t value, std::size_t
     }
 }
 
+Vec3<double> ShadingEvaluator::Impl::exactLimit(TileClass const& tileClass, Place const& place, int firstValue,
+                                                int point, Visit& visit, bool& isAverage) {
+    Vec3<double> average;
+    isAverage = tileClass.averages && findAverage(*tileClass.averages, point, place.points, average);
+    return isAverage ? average : exactNormals->Find(visit.tile, firstValue + point, visit.controlPoints);
+}
+
+namespace {
+
+void writePoint(LeafFrame::Output const& output, std::size_t point, Vec3<float> const& v) {
+    if (output.data == nullptr) return;
+    float* const target = output.data + point * output.stride;
+    target[0] = v.x;
+    target[1] = v.y;
+    target[2] = v.z;
+}
+
+Vec3<float> toFloat(Vec3<double> const& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+}  // namespace
+
+/// Where b is 1 and N_S vanishes N_B is N_L, as in BlendNormals.
+void ShadingEvaluator::Impl::replaceVanished(LeafFrame const& leaf, TileClass const& tileClass, Place const& place,
+                                             int firstValue, Visit& visit) {
+    if (leaf.blendedNormals.data == nullptr) return;
+    for (int i = 0; i < leaf.numDoubtful; ++i) {
+        bool isAverage = false;
+        int const point = leaf.doubtful[i];
+        Vec3<double> const limit = exactLimit(tileClass, place, firstValue, point, visit, isAverage);
+        writePoint(leaf.blendedNormals, index(point), toFloat(limit));
+    }
+}
+
 void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass, Place const& place, int firstValue,
                                     Visit& visit) {
-    auto const write = [](LeafFrame::Output const& output, std::size_t point, Vec3<float> const& v) {
-        if (output.data == nullptr) return;
-        float* const target = output.data + point * output.stride;
-        target[0] = v.x;
-        target[1] = v.y;
-        target[2] = v.z;
-    };
     for (int i = 0; i < leaf.numDoubtful; ++i) {
         std::size_t const point = leaf.doubtful[i];
-        Vec3<double> exact;
-        bool const isAverage =
-            tileClass.averages && findAverage(*tileClass.averages, static_cast<int>(point), place.points, exact);
-        if (!isAverage) {
-            exact = exactNormals->Find(visit.tile, firstValue + static_cast<int>(point), visit.controlPoints);
-            ++visit.worker->numFallbacks;
-        }
-        Vec3<float> limit{static_cast<float>(exact.x), static_cast<float>(exact.y), static_cast<float>(exact.z)};
+        bool isAverage = false;
+        Vec3<float> limit =
+            toFloat(exactLimit(tileClass, place, firstValue, static_cast<int>(point), visit, isAverage));
+        if (!isAverage) ++visit.worker->numFallbacks;
         Vec3<float> subdivided{};
         float blend = 0;
         if (leaf.subdivided.x != nullptr) {
@@ -666,8 +708,8 @@ void ShadingEvaluator::Impl::settle(LeafFrame& leaf, TileClass const& tileClass,
             if (IsZero(limit)) limit = subdivided;
             if (blend == 0) subdivided = {};
         }
-        write(leaf.limitNormals, point, limit);
-        write(leaf.blendedNormals, point, BlendNormals(limit, subdivided, blend, 1));
+        writePoint(leaf.limitNormals, point, limit);
+        writePoint(leaf.blendedNormals, point, BlendNormals(limit, subdivided, blend, 1));
     }
 }
 

@@ -30,10 +30,12 @@ struct NumberSpan {
 /// Where a frame goes: each view is empty or has ShadingTable::NumValues() elements. They may interleave in one
 /// buffer, but not overlap.
 struct ShadingOutputs {
-    PointSpan positions;          ///< of the limit surface, or as options.limits.positions has it
-    PointSpan blendedNormals;     ///< N_B, unit length or zero
-    PointSpan limitNormals;       ///< N_L, unit length or zero
-    PointSpan subdividedNormals;  ///< N_S, unit length; zero where b = 0
+    PointSpan positions;       ///< of the limit surface, or as options.limits.positions has it
+    PointSpan blendedNormals;  ///< N_B, unit length or zero
+    /// N_L, unit length or zero. Where tangents and faces leave none N_S stands in, but, other than in
+    /// ShadeSubdivision, only where b > 0: tables hold no N_S elsewhere.
+    PointSpan limitNormals;
+    PointSpan subdividedNormals;  ///< N_S, unit length; zero where b = 0 or where it vanishes
     /// Limit tangents, du x dv along N_L. Where the surface is regular: its derivatives by u and v of the tile
     /// (edge 0 of the face runs along u); at extraordinary and sharp vertices they point along those edges, their
     /// lengths are those of OpenSubdiv's tangent masks. At corners of several faces, where no tangent plane exists,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// Calls that nobody means well with behind the doors where a mesh comes in: refiners, frames, rows, checks, estimates.
+// Calls that nobody means well with behind the doors where a mesh comes in: refiners, frames, rows, checks,
+// estimates.
 
 #include <gtest/gtest.h>
 
@@ -71,7 +72,8 @@ TEST(HostileCalls, AnAdaptiveRefinerIsShadedFromItsLevelZero) {
     refiner->RefineAdaptive(Far::TopologyRefiner::AdaptiveOptions(3));
     ShadingInput<double> input;
     input.positions = shape.Points();
-    EXPECT_TRUE(IsSameResult(ShadeSubdivision(*refiner, input, PaperPreset(2)), Shade<double>(shape, PaperPreset(2))));
+    EXPECT_TRUE(
+        IsSameResult(ShadeSubdivision(*refiner, input, PaperPreset(2)), Shade<double>(shape, PaperPreset(2))));
 }
 
 TEST(HostileCalls, TablesAndFramesRefuseWhatTheyCannotRead) {
@@ -94,9 +96,14 @@ TEST(HostileCalls, TablesAndFramesRefuseWhatTheyCannotRead) {
         {"an order that there is not", [&] { ShadingTable(cube.Mesh(), PaperPreset(1), ValueOrder(2)); },
          "order is 2, none that there is"},
         {"an instruction set that there is not",
-         [&] { ShadingEvaluator(table, {1, static_cast<InstructionSet>(99)}); },
+         [&] {
+             ShadingEvaluator(table, {1, static_cast<InstructionSet>(99)});
+         },
          "this build or this processor does not have the instruction set asked for; use InstructionSet::Best"},
-        {"least threads", [&] { ShadingEvaluator(table, {kLeast, InstructionSet::Best}); },
+        {"least threads",
+         [&] {
+             ShadingEvaluator(table, {kLeast, InstructionSet::Best});
+         },
          "numThreads is -2147483648; it must be 0 or more"},
         {"points of all 64 bits", frameOf({points.data(), kAllBits}, {to, 26, 3}),
          "controlPoints has 18446744073709551615 elements; the table needs 8, one per control vertex"},
@@ -171,16 +178,26 @@ TEST(HostileCalls, RowsAndChannelsRefuseWhatTheyCannotRead) {
         {"rows to the most", range(0, kMost), "rows 0 to 2147483647 are no range of the table's 26"},
         {"rows of nothing", range(26, 26), "no error"},
         {"values of none", [&] { none.Evaluate({}, {}); }, "control: its width is 0; give 1 or more"},
-        {"least width", [&] { rows.Evaluate({control.data(), 8, kLeast, 1}, {refined.data(), 26}); },
+        {"least width",
+         [&] {
+             rows.Evaluate({control.data(), 8, kLeast, 1}, {refined.data(), 26});
+         },
          "control: its width is -2147483648; give 1 or more"},
-        {"control of stride 0", [&] { rows.Evaluate({control.data(), 8, 1, 0}, {refined.data(), 26}); },
+        {"control of stride 0",
+         [&] {
+             rows.Evaluate({control.data(), 8, 1, 0}, {refined.data(), 26});
+         },
          "control: its stride, 0, is less than the width, 1"},
-        {"control of all 64 bits", [&] { rows.Evaluate({control.data(), kAllBits, 1}, {refined.data(), 26}); },
+        {"control of all 64 bits",
+         [&] {
+             rows.Evaluate({control.data(), kAllBits, 1}, {refined.data(), 26});
+         },
          "control has 18446744073709551615 elements; the table has 8"},
         {"faces of least size", match({0, 1, 2}, {0, 1, 2}, kLeast), "faceSize is -2147483648; give 3 or more"},
         {"faces of the largest size", match({0, 1, 2}, {0, 1, 2}, kMost),
          "an index buffer has a size that is no multiple of 2147483647"},
-        {"a face that is not there", match({0, 1, 2}, {0, 2, 1}, 3), "face 0 of the wanted order is none of the faces"},
+        {"a face that is not there", match({0, 1, 2}, {0, 2, 1}, 3),
+         "face 0 of the wanted order is none of the faces"},
         {"no faces at all", match({}, {}, 3), "no error"},
     });
 }
@@ -257,11 +274,76 @@ TEST(HostileCalls, ExponentsAtTheEndsOfTheirRangeGiveUnitNormals) {
         std::vector<float> const points = cube.FloatPositions();
         ShadingTable const table(cube.Mesh(), options);
         std::size_t const count = Index(table.NumValues());
-        std::vector<Vec3<float>> normals(count);
+        std::vector<Vec3<float>> normals(count), subdivided(count);
+        std::vector<float> const weights = table.BlendWeights();
         ShadingOutputs outputs;
         outputs.blendedNormals = {&normals[0].x, count, 3};
+        outputs.subdividedNormals = {&subdivided[0].x, count, 3};
         ShadingEvaluator(table).Evaluate({points.data(), points.size() / 3}, outputs);
         for (Vec3<float> const& n : normals) EXPECT_NEAR(Length(n), 1, 1e-5) << exponent;
+        // N_S is there wherever b is, though its power be less than any float.
+        for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(Length(subdivided[i]) > 0, weights[i] > 0) << exponent;
+    }
+}
+
+TEST(HostileCalls, WhereNothingIsLeftOfSubdividedNormalsThatCountAloneFramesTakeLimitNormals) {
+    Shape const shape = shapes::MixedPolygons().Jitter(0.1);
+    ShadingOptions options = PaperPreset(2);
+    options.startNormals.kind = StartNormalKind::User;
+    options.weights.scheme = WeightScheme::One;
+    std::vector<float> const points = shape.FloatPositions(), zeros(points.size(), 0);
+    PointView<float> const normals(zeros.data(), zeros.size() / 3);
+    ShadingInput<float> input;
+    input.positions = {points.data(), points.size() / 3};
+    input.vertexNormals = normals;
+    ShadingResult<float> const result = ShadeSubdivision(shape.Mesh(), input, options);
+    EXPECT_TRUE(HasSameBits(result.blendedNormals, result.limitNormals));
+
+    ShadingTable const table(shape.Mesh(), options);
+    std::vector<int> const values = table.ResultValues();
+    std::size_t const count = Index(table.NumValues());
+    std::vector<Vec3<float>> blended(count), limits(count);
+    for (bool const hasLimits : {false, true}) {
+        ShadingOutputs outputs;
+        outputs.blendedNormals = {&blended[0].x, count, 3};
+        if (hasLimits) outputs.limitNormals = {&limits[0].x, count, 3};
+        EXPECT_EQ(ShadingEvaluator(table).Evaluate(input.positions, normals, outputs).fallbackNormals, 0);
+        for (std::size_t i = 0; i < count; ++i) {
+            EXPECT_LT(Distance(blended[i], result.limitNormals[Index(values[i])]), 1e-5) << i << " " << hasLimits;
+        }
+    }
+}
+
+TEST(HostileCalls, AFaceCountsAtACornerWithoutAreaWhateverRoundingMakesOfIt) {
+    // The pentagon's corner at (8, 8, 8), where two points are one, has no area at level 1 but for rounding.
+    Shape shape;
+    shape.Vertex(0, 1, 0).Vertex(0, 0, 0).Vertex(1, 1, 0.25).Vertex(8, 8, 8).Vertex(8, 8, 8);
+    shape.Face({1, 2, 4, 3, 0}).Boundary(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+    ShadingOptions options = PaperPreset(2);
+    options.startNormals.kind = StartNormalKind::CornerArea;
+    options.weights.scheme = WeightScheme::One;
+    for (double const size : {1.0, 0.1, 1e-3, 1e5}) {
+        Shape sized = shape;
+        for (double& x : sized.positions) x *= size;
+        std::vector<float> const points = sized.FloatPositions();
+        std::vector<double> const exact(points.begin(), points.end());
+        ShadingInput<double> input;
+        input.positions = {exact.data(), exact.size() / 3};
+        ShadingResult<double> const result = ShadeSubdivision(sized.Mesh(), input, options);
+        EXPECT_EQ(result.report.zeroStartNormals, 0) << size;
+        ShadingTable const table(sized.Mesh(), options);
+        std::size_t const count = Index(table.NumValues());
+        std::vector<Vec3<float>> normals(count);
+        ShadingOutputs outputs;
+        outputs.subdividedNormals = {&normals[0].x, count, 3};
+        FrameReport const report = ShadingEvaluator(table).Evaluate({points.data(), points.size() / 3}, outputs);
+        EXPECT_EQ(report.zeroStartNormals, 0) << size;
+        std::vector<int> const values = table.ResultValues();
+        for (std::size_t i = 0; i < count; ++i) {
+            EXPECT_LT(AngleBetween(normals[i], result.subdividedNormals[Index(values[i])]), 1e-4)
+                << size << " " << i;
+            EXPECT_FALSE(IsZero(normals[i])) << size << " " << i;
+        }
     }
 }
 

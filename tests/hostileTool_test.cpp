@@ -33,7 +33,9 @@ TEST(HostileTool, ModelsThatCannotBeAreRefusedInTheReadersWords) {
     for (int i = 0; i < 65537; ++i) fan += "v 1 " + std::to_string(i) + " 0\n";
     for (int i = 2; i <= 65537; ++i) fan += "f 1 " + std::to_string(i) + " " + std::to_string(i + 1) + "\n";
     std::vector<Case> const cases = {
-        {kQuad + "t crease 2/1/0 0 2 1\n", {}, "m.obj:6: the crease from vertex 0 to 2 (from 0) is no edge of a face"},
+        {kQuad + "t crease 2/1/0 0 2 1\n",
+         {},
+         "m.obj:6: the crease from vertex 0 to 2 (from 0) is no edge of a face"},
         {kQuad + "t crease 2/1/0 0 1 -1\n", {}, "m.obj:6: sharpness '-1' is negative"},
         {kQuad + "t hole 1/0/0 7\n", {}, "m.obj:6: no face has the index 7 (counted from 0): the file has 1"},
         {kQuad + "fs 0 0 0 0 1\n", {}, "m.obj:6: sharpness number 5 is not 0"},
@@ -43,7 +45,10 @@ TEST(HostileTool, ModelsThatCannotBeAreRefusedInTheReadersWords) {
         {kQuad + "f 1 2 3\n", {"--level", "0"}, "level is 0, but the mesh has faces other than quads"},
         {fan, {"--level", "1"}, "m.obj: vertex 0 has more than 65535"},
         {"v 0 0 " + std::string(10'000'000, 'x'), {}, "m.obj:1: '" + std::string(40, 'x') + "...' is not a number"},
-        {"\x7f" "ELF\x02\x01\x01", {}, "m.obj: has no face (a line that begins with f): it is no OBJ model"},
+        {"\x7f"
+         "ELF\x02\x01\x01",
+         {},
+         "m.obj: has no face (a line that begins with f): it is no OBJ model"},
         {std::string(1000, '\0'), {}, "m.obj: has no face (a line that begins with f): it is no OBJ model"},
         {"f 1 2 3\n", {}, "m.obj:1: no vertex has the index 1 (counted from 1): the file has 0"},
     };
@@ -81,7 +86,8 @@ TEST(HostileTool, FilesThatAreNoneAreRefusedWithTheSystemsReason) {
     ExpectRefused({model, "--level", std::string(100000, '9')}, "--level");
     EXPECT_EQ(folder.NumFiles(), 3U);
 
-    Outcome const piped = RunShell("cat " + Quoted(model) + " | " + CommandOf({"/dev/stdin", "-o", out, "--quiet"}));
+    Outcome const piped =
+        RunShell("cat " + Quoted(model) + " | " + CommandOf({"/dev/stdin", "-o", out, "--quiet"}));
     EXPECT_EQ(piped.status, 0) << piped.error;
     EXPECT_TRUE(fs::exists(out));
 }
@@ -107,7 +113,8 @@ TEST(HostileTool, AFullDiskLeavesTheOldFileAndNothingElse) {
     }
     TemporaryFolder const folder;
     std::string const report = folder.File("report.json");
-    Outcome const outcome = RunShell("ulimit -f 1; " + CommandOf({ModelPath("mug"), "--quiet", "--report", report}));
+    Outcome const outcome =
+        RunShell("ulimit -f 1; " + CommandOf({ModelPath("mug"), "--quiet", "--report", report}));
     EXPECT_EQ(outcome.status, 2);
     EXPECT_EQ(outcome.error, "osd_shade: error: " + report + ": can't be written: File too large\n");
     EXPECT_EQ(folder.NumFiles(), 0U);

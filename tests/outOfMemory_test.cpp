@@ -70,7 +70,8 @@ void expectBadAlloc(std::string const& name, Leaks leaks, std::function<void()> 
         }
         FailAllocation(0);
         // Only where less memory is an answer, in sorting, is nothing thrown.
-        EXPECT_TRUE(outcome.empty() || outcome == "nothing thrown") << name << ", allocation " << number << ": " << outcome;
+        EXPECT_TRUE(outcome.empty() || outcome == "nothing thrown")
+            << name << ", allocation " << number << ": " << outcome;
         outcome.clear();
         outcome.shrink_to_fit();
         if (leaks == Leaks::None) {
@@ -181,16 +182,18 @@ TEST(OutOfMemory, TablesStencilsAndRowsThrow) {
     expectBadAlloc("BuildShadingStencils", Leaks::OfOpenSubdiv,
                    [&] { BuildShadingStencils(kShape.Mesh(), PaperPreset(1)); });
     std::vector<int> const indices(kShape.faceVertices.size(), 3);
-    expectBadAlloc("BuildPrimvarTable", Leaks::OfOpenSubdiv,
-                   [&] { BuildPrimvarTable<float>(kShape.Mesh(), {{indices, 4}}, PaperPreset(1)); });
+    expectBadAlloc("BuildPrimvarTable", Leaks::OfOpenSubdiv, [&] {
+        BuildPrimvarTable<float>(kShape.Mesh(), {{indices, 4}}, PaperPreset(1));
+    });
 }
 
 TEST(OutOfMemory, FramesThrowAndTheNextOneIsRight) {
     Shape const torus = shapes::Torus(6, 5).Crease(0, 1, 1.5F).Jitter(0.1);
     std::vector<float> const torusPoints = torus.FloatPositions();
     ShadingTable const torusTable(torus.Mesh(), PaperPreset(2));
-    expectBadAlloc("an evaluator", Leaks::None,
-                   [&] { EvaluateAll(torusTable, {torusPoints.data(), torusPoints.size() / 3}); });
+    expectBadAlloc("an evaluator", Leaks::None, [&] {
+        EvaluateAll(torusTable, {torusPoints.data(), torusPoints.size() / 3});
+    });
 
     // Its tangents vanish, so that frames allocate, and OpenSubdiv refines the tiles concerned.
     Shape const flat = shapes::Cube().CreaseAll(1.5F);
@@ -200,8 +203,9 @@ TEST(OutOfMemory, FramesThrowAndTheNextOneIsRight) {
     ShadingTable const table(flat.Mesh(), PaperPreset(2));
     TableFrame const right = EvaluateAll(table, view);
     for (int const numThreads : {1, 2}) {
-        expectBadAlloc("a frame and its evaluator", Leaks::OfOpenSubdiv,
-                       [&] { EvaluateAll(table, view, {numThreads, InstructionSet::Best}); });
+        expectBadAlloc("a frame and its evaluator", Leaks::OfOpenSubdiv, [&] {
+            EvaluateAll(table, view, {numThreads, InstructionSet::Best});
+        });
     }
     ShadingEvaluator evaluator(table);
     std::size_t const count = Index(table.NumValues());

@@ -19,7 +19,9 @@ namespace toolProgram {
 
 using Words = std::vector<std::string>;
 
-inline std::string ModelPath(std::string const& name) { return std::string(OSD_SHADING_MODELS) + "/" + name + ".obj"; }
+inline std::string ModelPath(std::string const& name) {
+    return std::string(OSD_SHADING_MODELS) + "/" + name + ".obj";
+}
 
 inline std::string Quoted(std::string const& word) {
     std::string quoted = "'";

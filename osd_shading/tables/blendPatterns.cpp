@@ -47,7 +47,9 @@ int PatternBuilder::Add(std::vector<int> const& leafSizes, std::vector<double> c
         _data.patterns.push_back({_data.leafBlends.size(), _data.blendPowers.size()});
         _data.leafBlends.insert(_data.leafBlends.end(), leaves.begin(), leaves.end());
         for (float const b : mixed) {
-            double const power = _exponent == 1 ? double{b} : std::pow(double{b}, _exponent);
+            // A power too small for float stays above 0 as well: N_S is there wherever b is.
+            double const least = b > 0 ? double{std::numeric_limits<float>::min()} : 0;
+            double const power = _exponent == 1 ? double{b} : std::max(std::pow(double{b}, _exponent), least);
             _data.blendPowers.push_back(static_cast<float>(power));
         }
         if (_exponent != 1) _data.blendWeights.insert(_data.blendWeights.end(), mixed.begin(), mixed.end());

@@ -104,7 +104,7 @@ struct LeafFrame {
     };
     Output positions, blendedNormals, limitNormals, subdividedNormals, tangents1, tangents2;
 
-    std::uint16_t* doubtful;  ///< points whose N_L is doubtful, ascending; room for numPoints
+    std::uint16_t* doubtful;  ///< points whose N_L or N_B is doubtful, ascending; room for numPoints
     int numDoubtful;          ///< set by `finish`
 };
 
@@ -142,9 +142,9 @@ struct PatchKernels {
     ///
     /// subdividedNormals are 0 where b is 0. A point is doubtful when |t1 x t2| <= |t1| doubt2 or |t2| doubt1, or
     /// where the square of the cross product leaves the range of floats (|t1 x t2| below 1e-18 is taken as that);
-    /// NaN is not doubtful. Without tangents N_B is N_S (b is 1), and no point is doubtful. N_L and N_B of doubtful
-    /// points are written all the same; never NaN where the tangents' cross product is zero. N_B is the same bits
-    /// whatever else is written.
+    /// NaN is not doubtful. Without tangents N_B is N_S (b is 1), and a point is doubtful where N_S vanishes: there
+    /// N_B is N_L, which the caller knows. N_L and N_B of doubtful points are written all the same; never NaN where
+    /// the tangents' cross product is zero. N_B is the same bits whatever else is written.
     void (*finish)(LeafFrame& frame);
 
     /// results[i] = sum of weights[t] * points[sources[t]] for t in [offsets[i], offsets[i + 1]); results may

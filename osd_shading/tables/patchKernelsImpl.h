@@ -586,6 +586,9 @@ private:
                 blended = scale(n, one / Sqrt(n2));
             } else if constexpr (kBlend == Blend::SubdividedOnly) {
                 blended = normalizedSubdivided(s, s2);
+                // There N_B is N_L, which the caller finds.
+                unsigned const without = Bits(NotLess(vanished, s2)) & all;
+                if (without != 0) addDoubtful(frame, first, without);
             } else {
                 // N_B is along (1 - b) n + b (|n| / |s|) s: one square root for both lengths.
                 V const b = kBlend == Blend::ByPoint ? V::Load(blend + first) : one;

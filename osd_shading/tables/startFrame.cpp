@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "osd_shading/faceNormals.h"
 #include "osd_shading/parallel.h"
@@ -134,17 +135,26 @@ std::int64_t StartFrame::Compute(PointView<float> controlPoints, PointView<float
                     continue;
                 }
             }
+            auto const sidesOf = [&](int c) {
+                int const face = program.valueFaces[index(c)];
+                int const size = sizeOf(face), corner = program.valueCorners[index(c)];
+                Vec3<double> const p = pointOf(face, corner);
+                return std::pair(pointOf(face, (corner + 1) % size) - p,
+                                 pointOf(face, (corner + size - 1) % size) - p);
+            };
+            double longest = 0;
+            for (int c = first; c < last && weight == FaceWeight::CornerArea; ++c) {
+                auto const [after, before] = sidesOf(c);
+                longest = std::fmax(longest, std::fmax(Length(after), Length(before)));
+            }
             NormalSum<double> sum;
             for (int c = first; c < last; ++c) {
-                int const face = program.valueFaces[index(c)];
                 double own = 1;
                 if (weight != FaceWeight::Uniform) {
-                    int const size = sizeOf(face), corner = program.valueCorners[index(c)];
-                    Vec3<double> const p = pointOf(face, corner);
-                    own = CornerWeight(weight, pointOf(face, (corner + 1) % size) - p,
-                                       pointOf(face, (corner + size - 1) % size) - p);
+                    auto const [after, before] = sidesOf(c);
+                    own = std::fmax(CornerWeight(weight, after, before), LeastWeight(weight, longest));
                 }
-                sum.Add(_faceNormals[index(face)], own);
+                sum.Add(_faceNormals[index(program.valueFaces[index(c)])], own);
             }
             Vec3<double> const normal = sum.Unit();
             zero += IsZero(normal);

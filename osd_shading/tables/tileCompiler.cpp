@@ -296,9 +296,11 @@ TileDictionary TileCompiler::Take() {
     for (std::size_t i = 0; i < dictionary.plans.size(); ++i) {
         dictionary.plans[i].segments = dictionary.segments.data() + _planOffsets[i];
     }
+    // Of all blocks: one block's own array ends before the next.
+    auto const* const weights = reinterpret_cast<float const*>(dictionary.weights.data());
     for (std::size_t i = 0; i < dictionary.matrices.size(); ++i) {
         dictionary.matrices[i].weights =
-            dictionary.weights.empty() ? nullptr : dictionary.weights[0].v + _weightOffsets[i] * kDenseBlock;
+            dictionary.weights.empty() ? nullptr : weights + _weightOffsets[i] * kDenseBlock;
     }
     return dictionary;
 }
