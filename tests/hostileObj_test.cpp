@@ -330,7 +330,7 @@ TEST(HostileObj, LinesOfTenMegabytesGiveTheirErrorSoonAndShort) {
         {"zero bytes", std::string(kMany, '\0'), kNoFace},
         {"empty lines", std::string(kMany, '\n') + kQuad, kOneQuad},
     });
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
 TEST(HostileObj, EveryBeginningOfAFileIsAModelOrAnErrorThatNamesItsLastLine) {

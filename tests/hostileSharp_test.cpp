@@ -165,7 +165,7 @@ TEST(HostileSharp, LinesOfTenMegabytesAreReadInLinearTime) {
          "m.sharp:1: fs and as lines stand for more faces than the 2 of the model: remove them, or check that they "
          "belong to this model"},
     });
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
 TEST(HostileSharp, EveryBeginningOfAFileIsReadOrRefusedWithItsLastLine) {

@@ -172,7 +172,7 @@ TEST(CommandLine, RefusesBadValuesInOneLineThatNamesTheOption) {
         {{"--start-normals", "user"}, "--start-normals"},
         {{"--preset", "rough"}, "--preset"},
         {{"--averaging", "cubic"}, "--averaging"},
-        {{"--limit-normals", "exact"}, "--limit-normals"},
+        {{"--limit-normals", "precise"}, "--limit-normals"},
         {{"--positions", "control"}, "--positions"},
         {{"--boundary", "corner"}, "--boundary"},
         {{"--creasing", "Chaikin"}, "--creasing"},
