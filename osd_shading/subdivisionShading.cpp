@@ -62,7 +62,7 @@ double numFacesAt(MeshSize const& size, int level) {
     if (level == 0) return static_cast<double>(size.numFaces);
     double const first = size.scheme == Sdc::SCHEME_CATMARK ? static_cast<double>(size.numFaceCorners)
                                                             : 4 * static_cast<double>(size.numFaces);
-    return first * std::pow(4.0, level - 1);
+    return first * std::pow(4.0, level - 1.0);
 }
 
 void checkMemory(MeshSize const& size, std::size_t realSize, ShadingOptions const& options) {
@@ -88,14 +88,13 @@ std::uint64_t EstimateShadingBytes(MeshSize const& size, int level, std::size_t 
     // Peaks measured by tests/perf, rounded up: bytes by face of the last level, ...
     bool const isFloat = realSize <= sizeof(float), isCatmark = size.scheme == Sdc::SCHEME_CATMARK;
     double perFace = isCatmark ? (isFloat ? 560 : 655) : (isFloat ? 385 : 440);
-    perFace +=
-        110.0 * static_cast<double>(size.numFaceVarying) +
-        3.0 * static_cast<double>(realSize) * static_cast<double>(size.faceVaryingWidth + size.vertexDataWidth);
+    double const width = static_cast<double>(size.faceVaryingWidth) + static_cast<double>(size.vertexDataWidth);
+    perFace += 110.0 * static_cast<double>(size.numFaceVarying) + 3.0 * static_cast<double>(realSize) * width;
     // ... by edge of the last level on a crease, and on what may be a boundary, ...
     double const perCreaseEdge = isFloat ? 900 : 1300, perBoundaryEdge = isFloat ? 60 : 100;
     double const edges = std::pow(2.0, level);
     // ... and by vertex of each level where it may be isolated.
-    double const perVertex = 130.0 * (level + 2);
+    double const perVertex = 130.0 * (level + 2.0);
     double const bytes = perFace * numFacesAt(size, level) +
                          perCreaseEdge * edges * static_cast<double>(size.numCreases) +
                          perBoundaryEdge * edges * static_cast<double>(size.numFaceCorners) +

@@ -244,6 +244,7 @@ TEST(HostileCalls, NoNumbersOfAnEstimateAreTooManyOrTooFew) {
     EXPECT_EQ(EstimateShadingBytes({Sdc::SCHEME_LOOP, most, most, most, most, most, most, most, most}, kMost, 8),
               9200000000000000000U);
     EXPECT_GT(EstimateShadingBytes({}, -1, 0), 0U);
+    EXPECT_GT(EstimateShadingBytes({}, kLeast, 8), 0U);
     EXPECT_EQ(EstimateShadingBytes({}, 1000000000, 8), 9200000000000000000U);  // 0 faces, each cut infinitely often
 }
 
