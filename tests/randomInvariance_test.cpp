@@ -130,18 +130,21 @@ TEST(RandomInvariance, AConstantFieldOfNormalsStaysConstant) {
 
 TEST(RandomInvariance, TurnedAndMovedMeshesGiveTurnedNormals) {
     // Columns are orthogonal and of unit length: a turn about (1, 2, 2).
-    double const turn[9] = {1 / 9.0 - 8 / 9.0, 4 / 9.0, 4 / 9.0, 4 / 9.0, -1 / 9.0, 8 / 9.0, 4 / 9.0, 8 / 9.0, -1 / 9.0};
+    double const turn[9] = {1 / 9.0 - 8 / 9.0, 4 / 9.0, 4 / 9.0, 4 / 9.0, -1 / 9.0,
+                            8 / 9.0,           4 / 9.0, 8 / 9.0, -1 / 9.0};
     forRandomCases(400, [&](Case const& c, shapes::Random&) {
         ShadingResult<double> const plain = Shade<double>(c.shape, c.options);
         ShadingResult<double> const turned = Shade<double>(movedShape(c.shape, turn, {3, -1, 2}), c.options);
         ASSERT_TRUE(HasSameBits(plain.blendWeights, turned.blendWeights));
         for (std::size_t v = 0; v < plain.positions.size(); ++v) {
-            ASSERT_LT(Distance(mapped(turn, plain.positions[v]) + Vector{3, -1, 2}, turned.positions[v]), kPositions * 10);
+            ASSERT_LT(Distance(mapped(turn, plain.positions[v]) + Vector{3, -1, 2}, turned.positions[v]),
+                      kPositions * 10);
         }
         for (std::size_t i = 0; i < plain.limitNormals.size(); ++i) {
             ASSERT_LT(Distance(mapped(turn, plain.limitNormals[i]), turned.limitNormals[i]), kNormals) << i;
             double const steady = lengthOfBlend(plain, i);
-            ASSERT_LT(steady * Distance(mapped(turn, plain.blendedNormals[i]), turned.blendedNormals[i]), kNormals) << i;
+            ASSERT_LT(steady * Distance(mapped(turn, plain.blendedNormals[i]), turned.blendedNormals[i]), kNormals)
+                << i;
         }
     });
 }
@@ -163,7 +166,8 @@ TEST(RandomInvariance, AffineMapsOfTheMeshMapTheSurfaceAndItsTangentPlanes) {
         ShadingResult<double> const moved = Shade<double>(movedShape(c.shape, m, {1, 2, 3}), options);
         ASSERT_TRUE(HasSameBits(plain.blendWeights, moved.blendWeights));
         for (std::size_t v = 0; v < plain.positions.size(); ++v) {
-            ASSERT_LT(Distance(mapped(m, plain.positions[v]) + Vector{1, 2, 3}, moved.positions[v]), kPositions * 10);
+            ASSERT_LT(Distance(mapped(m, plain.positions[v]) + Vector{1, 2, 3}, moved.positions[v]),
+                      kPositions * 10);
         }
         // Corners of several faces and degenerate tangents take averages of normals, which no affine map keeps.
         if (plain.report.fallbackNormals + moved.report.fallbackNormals > 0) return;
@@ -180,7 +184,8 @@ TEST(RandomInvariance, RenumberingTheVerticesChangesNothingAtTheCornersOfTheFace
     forRandomCases(400, [](Case const& c, shapes::Random& random) {
         std::vector<int> numbers(Index(c.shape.NumVertices()));
         std::iota(numbers.begin(), numbers.end(), 0);
-        for (int i = c.shape.NumVertices() - 1; i > 0; --i) std::swap(numbers[Index(i)], numbers[Index(random.Below(i + 1))]);
+        for (int i = c.shape.NumVertices() - 1; i > 0; --i)
+            std::swap(numbers[Index(i)], numbers[Index(random.Below(i + 1))]);
         Shape renumbered = c.shape;
         for (std::size_t v = 0; v < numbers.size(); ++v) {
             std::copy_n(&c.shape.positions[3 * v], 3, &renumbered.positions[3 * Index(numbers[v])]);
@@ -188,11 +193,13 @@ TEST(RandomInvariance, RenumberingTheVerticesChangesNothingAtTheCornersOfTheFace
         for (auto* vertices : {&renumbered.faceVertices, &renumbered.creaseVertices, &renumbered.cornerVertices}) {
             for (int& v : *vertices) v = numbers[Index(v)];
         }
-        ShadingResult<double> const plain = Shade<double>(c.shape, c.options), other = Shade<double>(renumbered, c.options);
+        ShadingResult<double> const plain = Shade<double>(c.shape, c.options),
+                                    other = Shade<double>(renumbered, c.options);
         ASSERT_EQ(plain.faceValues.size(), other.faceValues.size());
         for (std::size_t k = 0; k < plain.faceValues.size(); ++k) {
             std::size_t const i = Index(plain.faceValues[k]), j = Index(other.faceValues[k]);
-            ASSERT_LT(Distance(plain.positions[Index(plain.valueVertices[i])], other.positions[Index(other.valueVertices[j])]),
+            ASSERT_LT(Distance(plain.positions[Index(plain.valueVertices[i])],
+                               other.positions[Index(other.valueVertices[j])]),
                       kPositions);
             ASSERT_NEAR(plain.blendWeights[i], other.blendWeights[j], 1e-13);
             if (hasLimitNormalByNumber(plain, i)) continue;
