@@ -627,7 +627,8 @@ bool findAverage(AverageNormals const& averages, int point, LocalPoint const* po
             std::fmax(CornerWeight(averages.weight, after, before), LeastWeight(averages.weight, longest));
         sum.Add(UnitPolygonNormal<double>(face->size, [&](int i) { return corners[i]; }), weight);
     }
-    normal = sum.Unit();
+    // The points were rounded to float: what is left where normals cancel is no direction.
+    normal = Length(sum.sum) > double{kVanishing<float>} * sum.added ? sum.Unit() : Vec3<double>{};
     return true;
 }
 
