@@ -59,8 +59,9 @@ public:
     ///
     /// All options hold but `subdividedNormals.averaging`, which must be Linear. `execution` counts for the build.
     ///
-    /// ERRORS: InvalidControlMesh, InvalidOptions, MemoryLimitExceeded, Cancelled; nothing else but std::bad_alloc.
-    /// COST: small beside OpenSubdiv's limit stencil table; near a vertex of N faces it grows with N squared.
+    /// ERRORS: InvalidControlMesh (also, in Loop from level 3 on, for two faces that share two edges),
+    /// InvalidOptions, MemoryLimitExceeded, Cancelled; nothing else but std::bad_alloc. COST: small beside
+    /// OpenSubdiv's limit stencil table; near a vertex of N faces it grows with N squared.
     explicit ShadingTable(ControlMesh const& mesh, ShadingOptions const& options = {},
                           ValueOrder order = ValueOrder::Tiles);
 

@@ -348,6 +348,36 @@ TEST(HostileCalls, AFaceCountsAtACornerWithoutAreaWhateverRoundingMakesOfIt) {
     }
 }
 
+TEST(HostileCalls, TrianglesBackToBackAreInTablesOfLoopUpToLevelTwoAndRefusedBeyond) {
+    Shape shape;
+    shape.Vertex(-8, -8, -8).Vertex(-8, -8, 0).Vertex(0, 2, 0).Face({0, 1, 2}).Face({1, 0, 2}).Loop();
+    std::vector<float> const points = shape.FloatPositions();
+    std::string const refusal =
+        "faces 0 and 1 share two edges, which tables of Loop subdivision hold up to level 2 only; use "
+        "ShadeSubdivision";
+    for (int level = 0; level <= 4; ++level) {
+        ShadingResult<double> const result = Shade<double>(shape, PaperPreset(level));
+        if (level > 2) {
+            EXPECT_EQ(wordsOf([&] { ShadingTable(shape.Mesh(), PaperPreset(level)); }), refusal);
+            continue;
+        }
+        ShadingTable const table(shape.Mesh(), PaperPreset(level));
+        std::size_t const count = Index(table.NumValues());
+        std::vector<Vec3<float>> positions(count);
+        ShadingOutputs outputs;
+        outputs.positions = {&positions[0].x, count, 3};
+        ShadingEvaluator(table).Evaluate({points.data(), 3}, outputs);
+        std::vector<int> const vertices = table.RefinedVertices();
+        for (std::size_t i = 0; i < count; ++i) {
+            Vec3<double> const p = result.positions[Index(vertices[i])];
+            EXPECT_LT(std::hypot(p.x - double(positions[i].x), p.y - double(positions[i].y),
+                                 p.z - double(positions[i].z)),
+                      1e-5)
+                << level;
+        }
+    }
+}
+
 TEST(HostileCalls, PointsFarBeyondEveryModelGiveNoNaN) {
     for (double const size : {1e-300, 1e-160, 1e-40, 1e30, 1e150, 1e160, 1e300}) {
         Shape cube = shapes::CubeWithSharpTop(2.5F).Jitter(0.1);

@@ -256,7 +256,13 @@ void FuzzMesh(std::uint8_t const* data, std::size_t size) {
     }
     requirePromises(result);
     requirePromises(shade<float>(mesh, options));
-    if (isLinear) requireSameFrame(mesh, options, result);
+    if (!isLinear) return;
+    try {
+        requireSameFrame(mesh, options, result);
+    } catch (InvalidControlMesh const& error) {
+        // The one kind of mesh that tables alone refuse.
+        Require(std::string(error.what()).find("share two edges") != std::string::npos, "a table takes the mesh");
+    }
 }
 
 }  // namespace fuzz
