@@ -90,6 +90,7 @@ TEST(TileWeights, AgreeWithTheWholeMeshOnEveryShape) {
 
 TEST(TileWeights, AgreeWithTheWholeMeshOnRandomMeshesFromAnyLevels) {
     shapes::Random random(77);
+    std::uint64_t numRefused = 0;
     for (std::uint64_t i = 0; i < SampleSize(200); ++i) {
         shapes::RandomShapeOptions kind;
         kind.triangles = random.Chance(0.4);
@@ -102,12 +103,19 @@ TEST(TileWeights, AgreeWithTheWholeMeshOnRandomMeshesFromAnyLevels) {
         options.weights.level = random.Below(options.level + 1);
         options.weights.sharpVertices = static_cast<SharpVertexWeight>(random.Below(3));
         options.weights.darts = static_cast<DartWeight>(random.Below(2));
-        ExpectSameWeights(shape, options,
-                          "seed " + std::to_string(seed) + ", L " + std::to_string(options.level) + ", n " +
-                              std::to_string(options.startNormals.level) + ", w " +
-                              std::to_string(options.weights.level) + ", variant " +
-                              std::to_string(static_cast<int>(options.weights.sharpVertices)));
+        try {
+            ExpectSameWeights(shape, options,
+                              "seed " + std::to_string(seed) + ", L " + std::to_string(options.level) + ", n " +
+                                  std::to_string(options.startNormals.level) + ", w " +
+                                  std::to_string(options.weights.level) + ", variant " +
+                                  std::to_string(static_cast<int>(options.weights.sharpVertices)));
+        } catch (InvalidControlMesh const& error) {
+            // Twin triangles, which some random meshes have.
+            EXPECT_NE(std::string(error.what()).find("share two edges"), std::string::npos) << error.what();
+            ++numRefused;
+        }
     }
+    EXPECT_LE(numRefused, SampleSize(200) / 20 + 1);
 }
 
 }  // namespace
