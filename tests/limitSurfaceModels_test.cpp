@@ -80,7 +80,8 @@ std::int64_t CompareModel(Shape const& shape) {
             std::string const where = shape.name + ", edge " + std::to_string(e) + " at " + std::to_string(t);
             EXPECT_LE(Distance(a.position, b.position), slack * 1e-12 * size) << where;
             auto const isDegenerate = [&](auto const& p) {
-                return Length(Cross(p.du, p.dv)) < 1e-5 * Length(p.du) * Length(p.dv);
+                return Length(Cross(p.du, p.dv)) < 1e-5 * Length(p.du) * Length(p.dv) ||
+                       std::min(Length(p.du), Length(p.dv)) < 1e-12 * size;
             };
             if (isSharp || isDegenerate(a) || isDegenerate(b) || isNearFold(e, t)) return;
             if (IsZero(a.subdividedNormal) != IsZero(b.subdividedNormal)) return;
