@@ -74,6 +74,17 @@ TEST(LimitSurface, IsTheUniformResultAtThePointsOfTheLastLevel) {
     }
 }
 
+TEST(LimitSurface, TakesTheCallersNormalsByFaceCorner) {
+    for (Shape const& shape : AllShapes()) {
+        ShadingOptions options = SurfacePreset();
+        options.startNormals = {StartNormalKind::User, 0};
+        options.weights.sharpVertices = SharpVertexWeight::Smooth;
+        Differences const d = CompareWithUniform(shape, options, 0, true);
+        EXPECT_LE(d.subdivided, 1e-10) << shape.name << ": " << d.where;
+        EXPECT_LE(d.blended, 1e-10) << shape.name << ": " << d.where;
+    }
+}
+
 bool HasAverages(Surface<double> const& surface, Shape const& shape) {
     ShadingOptions const& options = surface.limit.Options();
     return ShadeSubdivision(shape.Mesh(), surface.Input(options), options).report.averagedNormals > 0;

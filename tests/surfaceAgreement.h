@@ -23,16 +23,33 @@ namespace Bfr = OpenSubdiv::OPENSUBDIV_VERSION::Bfr;
 template <typename Real>
 struct Surface {
     std::vector<Vec3<Real>> points;
-    std::vector<Vec3<Real>> normals;  // per vertex, where the options ask for them
+    std::vector<Vec3<Real>> normals;  ///< where the options ask for the caller's: per vertex, or
+    bool areByCorner;                 ///< per face corner
     LimitSurface<Real> limit;
 
-    Surface(Shape const& shape, ShadingOptions const& options)
-        : points(PointsOf<Real>(shape)), normals(points), limit(shape.Mesh(), Input(options), options) {}
+    Surface(Shape const& shape, ShadingOptions const& options, bool byCorner = false)
+        : points(PointsOf<Real>(shape)),
+          normals(byCorner ? cornerNormals(shape) : points),
+          areByCorner(byCorner),
+          limit(shape.Mesh(), Input(options), options) {}
     ShadingInput<Real> Input(ShadingOptions const& options) const {
         ShadingInput<Real> input;
         input.positions = points;
-        if (options.startNormals.kind == StartNormalKind::User) input.vertexNormals = normals;
+        if (options.startNormals.kind == StartNormalKind::User) {
+            (areByCorner ? input.faceVaryingNormals : input.vertexNormals) = normals;
+        }
         return input;
+    }
+
+private:
+    static std::vector<Vec3<Real>> cornerNormals(Shape const& shape) {
+        shapes::Random random(8);
+        std::vector<Vec3<Real>> normals;
+        for (std::size_t i = 0; i < shape.faceVertices.size(); ++i) {
+            normals.push_back({static_cast<Real>(random.Uniform(-1, 1)), static_cast<Real>(random.Uniform(-1, 1)),
+                               static_cast<Real>(random.Uniform(0, 2))});
+        }
+        return normals;
     }
 };
 
@@ -108,8 +125,9 @@ struct Differences {
     double position = 0, limitNormal = 0, subdivided = 0, blended = 0, weight = 0;
     std::string where;
 };
-inline Differences CompareWithUniform(Shape const& shape, ShadingOptions const& options, int levelsBelow = 0) {
-    Surface<double> const surface(shape, options);
+inline Differences CompareWithUniform(Shape const& shape, ShadingOptions const& options, int levelsBelow = 0,
+                                      bool byCorner = false) {
+    Surface<double> const surface(shape, options, byCorner);
     ShadingOptions uniform = surface.limit.Options();
     uniform.level += levelsBelow;
     ShadingResult<double> const result = ShadeSubdivision(shape.Mesh(), surface.Input(options), uniform);
