@@ -28,7 +28,8 @@
 #include "tests/tableAgreement.h"
 
 // OpenSubdiv's factories lose what they were making: a leak sanitizer shall look at our own code.
-extern "C" char const* __lsan_default_suppressions();
+// Seen from outside: g++'s sanitizer is a shared library.
+extern "C" __attribute__((visibility("default"))) char const* __lsan_default_suppressions();
 extern "C" char const* __lsan_default_suppressions() {
     return "leak:libosdCPU\nleak:OpenSubdiv::*::Far::TopologyRefinerFactory\n";
 }
