@@ -98,8 +98,9 @@ public:
     /// The mask of a whole ring. REQUIRES: `vertex` is smooth or a dart, and not isolated.
     LimitMask<Real> const& RingMask(int vertex) const {
         int const size = Ring(vertex).size, numFaces = _isCatmark ? size / 2 : size;
-        if (_regions->Kind(vertex) == VertexKind::Dart && FindDartStart(*_level, vertex) >= 0) {
-            if (LimitMask<Real> const* const dart = _masks.Dart(numFaces)) return *dart;
+        if (_regions->Kind(vertex) == VertexKind::Dart) {
+            LimitMask<Real> const* const dart = _masks.Dart(numFaces);
+            if (dart != nullptr && FindDartStart(*_level, vertex) >= 0) return *dart;
         }
         return _masks.Ring(numFaces);
     }

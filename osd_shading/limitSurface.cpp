@@ -17,7 +17,6 @@
 #include "osd_shading/surface/cutOut.h"
 #include "osd_shading/surface/faceClass.h"
 #include "osd_shading/surface/facePoints.h"
-#include "osd_shading/tables/tileCompiler.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -27,12 +26,6 @@ namespace Bfr = OpenSubdiv::OPENSUBDIV_VERSION::Bfr;
 namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-struct KeyHash {
-    std::size_t operator()(std::vector<std::int32_t> const& key) const {
-        return static_cast<std::size_t>(tables::HashOf(key.data(), key.size() * sizeof key[0]));
-    }
-};
 
 /// The most neighbourhoods that are kept for other faces: some 100 kilobytes each.
 constexpr std::size_t kMostKept = 1024;
@@ -87,7 +80,8 @@ struct LimitSurface<Real>::Topology {
 
     mutable std::mutex mutex;
     mutable surface::LimitClasses limitClasses;
-    mutable std::unordered_map<std::vector<std::int32_t>, std::shared_ptr<surface::FaceClass const>, KeyHash>
+    mutable std::unordered_map<std::vector<std::int32_t>, std::shared_ptr<surface::FaceClass const>,
+                               tables::KeyHash>
         classes;
 
     template <typename Source>
@@ -228,11 +222,11 @@ void LimitSurface<Real>::Evaluate(int face, ArrayView<SurfaceParameter<Real>> pa
     ShadingOptions const& options = _topology->options.shading;
     bool const isCatmark = _topology->mesh.IsCatmark(), hasSecond = derivatives == SurfaceDerivatives::Second;
     int const size = FaceSize(face);
+    Bfr::Parameterization const parametrization(_topology->mesh.Scheme(), size);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         Real u = parameters[i].u, v = parameters[i].v, scale = 1;
         int root = 0;
         if (isCatmark && size != 4) {
-            Bfr::Parameterization const parametrization(Sdc::SCHEME_CATMARK, size);
             // The widest layout, of 65535 quads, has 256 to a side; NaN fails the comparisons.
             constexpr Real kWidest = 256;
             Real const given[2] = {u > 0 ? std::min(u, kWidest) : 0, v > 0 ? std::min(v, kWidest) : 0};

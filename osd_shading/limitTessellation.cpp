@@ -5,15 +5,14 @@
 #include <opensubdiv/bfr/tessellation.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "osd_shading/parallel.h"
 #include "osd_shading/vectorMath.h"
 
 namespace osd_shading {
@@ -51,32 +50,6 @@ void check(TessellationOptions const& options) {
     }
 }
 
-/// Calls `body(i)` for each item, on several threads one by one: items may take long, and are independent.
-template <typename Body>
-void forEach(int count, int numThreads, Body const& body) {
-    std::atomic<int> next{0};
-    std::vector<std::exception_ptr> failures(index(numThreads));
-    auto const work = [&](std::size_t thread) {
-        try {
-            for (int i = next++; i < count; i = next++) body(i);
-        } catch (...) {
-            failures[thread] = std::current_exception();
-            next = count;
-        }
-    };
-    std::vector<std::thread> threads;
-    try {
-        for (int i = 1; i < std::min(numThreads, count); ++i) threads.emplace_back(work, index(i));
-    } catch (...) {
-        // Fewer threads do the same.
-    }
-    work(0);
-    for (std::thread& thread : threads) thread.join();
-    for (std::exception_ptr const& failure : failures) {
-        if (failure) std::rethrow_exception(failure);
-    }
-}
-
 template <typename Real>
 class Tessellator {
 public:
@@ -94,7 +67,7 @@ public:
         findRates();
         checkSize();
         _faces.resize(index(_level.GetNumFaces()));
-        forEach(_level.GetNumFaces(), _options.numThreads, [&](int face) { cutFace(face); });
+        ParallelForEach(_level.GetNumFaces(), _options.numThreads, [&](int face) { cutFace(face); });
         numberPoints();
         return std::move(_result);
     }
@@ -118,7 +91,7 @@ private:
             std::fill(_rates.begin(), _rates.end(), _options.rate);
             return;
         }
-        forEach(_level.GetNumEdges(), _options.numThreads, [&](int edge) {
+        ParallelForEach(_level.GetNumEdges(), _options.numThreads, [&](int edge) {
             int rate = 1;
             for (int const face : _level.GetEdgeFaces(edge)) {
                 if (isLeftOut(face)) continue;
@@ -254,8 +227,9 @@ private:
 
     void numberPoints() {
         int const numFaces = _level.GetNumFaces();
-        // Vertices: those of control vertices in faces, of edges, then those inside faces.
+        // Vertices, face by face: of control vertices and edges that are new, then those inside.
         std::int64_t count = 0;
+        std::vector<int> firstInside(_faces.size(), 0);
         _vertexOf.assign(index(_level.GetNumVertices()), -1);
         _firstOfEdge.assign(index(_level.GetNumEdges()), -1);
         for (int f = 0; f < numFaces; ++f) {
@@ -268,6 +242,7 @@ private:
                 _firstOfEdge[index(e)] = static_cast<int>(count);
                 count += _rates[index(e)] - 1;
             }
+            firstInside[index(f)] = static_cast<int>(count);
             count += static_cast<std::int64_t>(_faces[index(f)].points.size()) - _faces[index(f)].numBoundary;
         }
 
@@ -279,17 +254,6 @@ private:
         result.vertexTags.resize(static_cast<std::size_t>(count));
         std::vector<unsigned char> isPlaced(static_cast<std::size_t>(count), 0);
         std::vector<std::vector<int>> vertexOfPoint(_faces.size());
-        // Inside points take the numbers that are left: face by face, after their edges.
-        std::vector<unsigned char> isTaken(static_cast<std::size_t>(count), 0);
-        for (int const v : _vertexOf) {
-            if (v >= 0) isTaken[index(v)] = 1;
-        }
-        for (int e = 0; e < _level.GetNumEdges(); ++e) {
-            for (int i = 0; _firstOfEdge[index(e)] >= 0 && i < _rates[index(e)] - 1; ++i) {
-                isTaken[index(_firstOfEdge[index(e)] + i)] = 1;
-            }
-        }
-        std::size_t free = 0;
         for (int f = 0; f < numFaces; ++f) {
             Face const& face = _faces[index(f)];
             if (isLeftOut(f)) continue;
@@ -297,9 +261,8 @@ private:
             for (int edge = 0; edge < static_cast<int>(face.rates.size()); ++edge) {
                 for (int i = 0; i < face.rates[index(edge)]; ++i) vertices.push_back(vertexAt(f, edge, i));
             }
-            while (vertices.size() < face.points.size()) {
-                while (isTaken[free] != 0) ++free;
-                vertices.push_back(static_cast<int>(free++));
+            for (int next = firstInside[index(f)]; vertices.size() < face.points.size(); ++next) {
+                vertices.push_back(next);
             }
             for (std::size_t i = 0; i < vertices.size(); ++i) {
                 if (isPlaced[index(vertices[i])] != 0) continue;

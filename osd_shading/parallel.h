@@ -20,28 +20,23 @@ inline int NumChunks(int numItems) {
     return static_cast<int>((static_cast<std::int64_t>(numItems) + kChunkSize - 1) / kChunkSize);
 }
 
-/// Calls `body(begin, end, chunk)` for every chunk of [0, numItems), on `numThreads` threads at most. When
-/// all threads have ended, an exception of one of them is rethrown.
+/// Calls `body(item)` for each item of [0, numItems), one by one, on `numThreads` threads at most. When all threads
+/// have ended, an exception of one of them is rethrown.
 template <typename Body>
-void ParallelFor(int numItems, int numThreads, Body const& body) {
-    int const numChunks = NumChunks(numItems);
-    auto const runChunk = [&](int chunk) {
-        int const begin = chunk * kChunkSize;
-        body(begin, std::min(numItems - begin, kChunkSize) + begin, chunk);
-    };
-    numThreads = std::min(numThreads, numChunks);
+void ParallelForEach(int numItems, int numThreads, Body const& body) {
+    numThreads = std::min(numThreads, numItems);
     if (numThreads <= 1) {
-        for (int chunk = 0; chunk < numChunks; ++chunk) runChunk(chunk);
+        for (int item = 0; item < numItems; ++item) body(item);
         return;
     }
     std::atomic<int> next{0};
     std::vector<std::exception_ptr> failures(static_cast<std::size_t>(numThreads));
     auto const work = [&](std::size_t thread) {
         try {
-            for (int chunk = next++; chunk < numChunks; chunk = next++) runChunk(chunk);
+            for (int item = next++; item < numItems; item = next++) body(item);
         } catch (...) {
             failures[thread] = std::current_exception();
-            next = numChunks;
+            next = numItems;
         }
     };
     std::vector<std::thread> threads;
@@ -56,6 +51,15 @@ void ParallelFor(int numItems, int numThreads, Body const& body) {
     for (std::exception_ptr const& failure : failures) {
         if (failure) std::rethrow_exception(failure);
     }
+}
+
+/// Calls `body(begin, end, chunk)` for every chunk of [0, numItems), likewise.
+template <typename Body>
+void ParallelFor(int numItems, int numThreads, Body const& body) {
+    ParallelForEach(NumChunks(numItems), numThreads, [&](int chunk) {
+        int const begin = chunk * kChunkSize;
+        body(begin, std::min(numItems - begin, kChunkSize) + begin, chunk);
+    });
 }
 
 }  // namespace v1

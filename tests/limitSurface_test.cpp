@@ -294,10 +294,7 @@ TEST(LimitSurface, IsTheSameWhateverTheThreads) {
 TEST(LimitSurface, GivesNumbersAtRandomPointsOfRandomMeshes) {
     shapes::Random random(11);
     for (std::uint64_t i = 0; i < SampleSize(60); ++i) {
-        shapes::RandomShapeOptions kind;
-        kind.triangles = random.Chance(0.4);
-        kind.nonManifold = random.Chance(0.2);
-        kind.chaikin = random.Chance(0.2);
+        shapes::RandomShapeOptions const kind = AnyKind(random);
         std::uint64_t const seed = random.Bits();
         Shape const shape = shapes::RandomShape(seed, kind);
         auto const options = ManyOptions();
@@ -339,10 +336,7 @@ bool HasTwinFaces(Shape const& shape) {
 TEST(LimitSurface, AgreesWithTheUniformResultOnRandomMeshes) {
     shapes::Random random(21);
     for (std::uint64_t i = 0; i < SampleSize(60); ++i) {
-        shapes::RandomShapeOptions kind;
-        kind.triangles = random.Chance(0.4);
-        kind.nonManifold = random.Chance(0.2);
-        kind.chaikin = random.Chance(0.2);
+        shapes::RandomShapeOptions const kind = AnyKind(random);
         std::uint64_t const seed = random.Bits();
         Shape const shape = shapes::RandomShape(seed, kind);
         auto const options = ManyOptions();

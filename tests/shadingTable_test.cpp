@@ -101,10 +101,7 @@ TEST(ShadingTable, AgreesWithTheOneShotPathInEveryOption) {
 TEST(ShadingTable, AgreesWithTheOneShotPathOnRandomMeshes) {
     shapes::Random random(20);
     for (std::uint64_t i = 0; i < SampleSize(150); ++i) {
-        shapes::RandomShapeOptions kind;
-        kind.triangles = random.Chance(0.4);
-        kind.nonManifold = random.Chance(0.2);
-        kind.chaikin = random.Chance(0.2);
+        shapes::RandomShapeOptions const kind = AnyKind(random);
         std::uint64_t const seed = random.Bits();
         Shape const shape = shapes::RandomShape(seed, kind);
         int const level = 1 + random.Below(4);

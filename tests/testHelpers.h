@@ -60,6 +60,15 @@ struct Rooms {
     CreaseRegions const& LastRegions() const { return levels.Regions(topology.LastLevel()); }
 };
 
+/// Draws what kind of random shape comes next: of every kind.
+inline shapes::RandomShapeOptions AnyKind(shapes::Random& random) {
+    shapes::RandomShapeOptions kind;
+    kind.triangles = random.Chance(0.4);
+    kind.nonManifold = random.Chance(0.2);
+    kind.chaikin = random.Chance(0.2);
+    return kind;
+}
+
 /// Every shape in both schemes.
 inline std::vector<Shape> AllShapes() {
     std::vector<Shape> all = shapes::CatmarkShapes();

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 #include <stb_image.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <cmath>
@@ -18,39 +17,21 @@
 #include <vector>
 
 #include "tests/ioFiles.h"
+#include "tests/programRun.h"
 #include "viewer/imageMaker.h"
 
 namespace viewerTest {
 
-using Words = std::vector<std::string>;
-
-inline std::string ModelPath(std::string const& name) {
-    return std::string(OSD_SHADING_MODELS) + "/" + name + ".obj";
-}
-
-inline std::string Quoted(std::string const& word) {
-    std::string quoted = "'";
-    for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
-
-struct Outcome {
-    int status = -1;  ///< exit status; -1: ended by a signal
-    std::string out, error;
-};
+using programRun::ModelPath;
+using programRun::Outcome;
+using programRun::Quoted;
+using programRun::Words;
 
 inline Outcome RunViewer(Words const& words) {
-    ioFiles::TemporaryFolder const folder;
     // No display: whatever needs one must not be touched.
     std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " + Quoted(OSD_SHADING_VIEWER_PROGRAM);
     for (std::string const& word : words) command += " " + Quoted(word);
-    int const status =
-        std::system((command + " > " + Quoted(folder.File("out")) + " 2> " + Quoted(folder.File("error"))).c_str());
-    Outcome outcome;
-    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    outcome.out = ioFiles::ReadBytes(folder.File("out"));
-    outcome.error = ioFiles::ReadBytes(folder.File("error"));
-    return outcome;
+    return programRun::RunShell(command);
 }
 
 struct Color {

@@ -4,17 +4,10 @@
 #include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
-#include <utility>
 
 namespace osd_shading {
 inline namespace v1 {
 namespace surface {
-
-namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 tables::TileRing FindCutOut(Far::TopologyLevel const& base, int face, int numRings) {
     tables::TileRing ring;
@@ -64,31 +57,8 @@ tables::TileRing FindCutOut(Far::TopologyLevel const& base, int face, int numRin
         ring.tileFace = static_cast<int>(std::lower_bound(faces.begin(), faces.end(), face) - faces.begin());
     }
 
-    // What is sharp in it; edges of one face alone are boundaries here as there, or lie at the rim.
-    std::vector<std::pair<int, std::pair<int, int>>> edges;
-    std::size_t offset = 0;
-    for (std::size_t f = 0; f < ring.faces.size(); ++f) {
-        Far::ConstIndexArray const faceEdges = base.GetFaceEdges(ring.faces[f]);
-        int const size = ring.faceSizes[f];
-        for (int i = 0; i < size; ++i) {
-            if (!IsSharpEdge(base, faceEdges[i])) continue;
-            edges.push_back({faceEdges[i], std::minmax(ring.faceVertices[offset + index(i)],
-                                                       ring.faceVertices[offset + index((i + 1) % size)])});
-        }
-        offset += index(size);
-    }
-    std::stable_sort(edges.begin(), edges.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
-    std::vector<std::pair<std::pair<int, int>, float>> creases;
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        bool const isSecond =
-            edges[i].first == edges[i - 1].first && (i < 2 || edges[i].first != edges[i - 2].first);
-        if (isSecond) creases.emplace_back(edges[i].second, base.GetEdgeSharpness(edges[i].first));
-    }
-    std::sort(creases.begin(), creases.end());
-    for (auto const& [ends, sharpness] : creases) {
-        ring.creaseVertices.insert(ring.creaseVertices.end(), {ends.first, ends.second});
-        ring.creaseSharpness.push_back(sharpness);
-    }
+    tables::AppendInnerCreases(
+        base, [&](int edge) { return base.GetEdgeSharpness(edge); }, ring);
     for (std::size_t v = 0; v < ring.vertices.size(); ++v) {
         float const sharpness = base.GetVertexSharpness(ring.vertices[v]);
         if (!(sharpness > 0)) continue;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "osd_shading/tables/neededRows.h"
-#include "osd_shading/tables/tileCompiler.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -16,10 +15,6 @@ namespace {
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
-
-std::size_t LimitClasses::KeyHash::operator()(std::vector<std::int32_t> const& key) const {
-    return static_cast<std::size_t>(tables::HashOf(key.data(), key.size() * sizeof key[0]));
-}
 
 LimitClass const& LimitClasses::Find(RegionLevels& levels, int level, int face, std::vector<FaceCorner>& inputs) {
     TileRing const ring = FindRegionRing(levels, level, face);

@@ -64,14 +64,11 @@ private:
         std::vector<FaceCorner> inputs;  ///< corners of the ring's faces
         bool isMade = false, isBeingMade = false;
     };
-    struct KeyHash {
-        std::size_t operator()(std::vector<std::int32_t> const& key) const;
-    };
 
     void make(TileRing const& ring, Entry& entry);
 
     Sdc::SchemeType _scheme;
-    std::unordered_map<std::vector<std::int32_t>, std::unique_ptr<Entry>, KeyHash> _classOfKey;
+    std::unordered_map<std::vector<std::int32_t>, std::unique_ptr<Entry>, tables::KeyHash> _classOfKey;
 };
 
 }  // namespace surface

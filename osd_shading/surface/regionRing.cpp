@@ -193,32 +193,8 @@ TileRing FindRegionRing(RegionLevels& levels, int levelIndex, int face) {
         }
     }
 
-    // Sharp edges inside it.
-    std::vector<std::pair<int, std::pair<int, int>>> edges;
-    std::size_t offset = 0;
-    for (std::size_t f = 0; f < ring.faces.size(); ++f) {
-        Far::ConstIndexArray const faceEdges = level.GetFaceEdges(ring.faces[f]);
-        int const size = ring.faceSizes[f];
-        for (int i = 0; i < size; ++i) {
-            int const edge = faceEdges[(ring.firstCorners[f] + i) % size];
-            if (!IsSharpEdge(level, edge)) continue;
-            edges.push_back({edge, std::minmax(ring.faceVertices[offset + index(i)],
-                                               ring.faceVertices[offset + index((i + 1) % size)])});
-        }
-        offset += index(size);
-    }
-    std::stable_sort(edges.begin(), edges.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
-    std::vector<std::pair<int, int>> creases;
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        bool const isSecond =
-            edges[i].first == edges[i - 1].first && (i < 2 || edges[i].first != edges[i - 2].first);
-        if (isSecond) creases.push_back(edges[i].second);
-    }
-    std::sort(creases.begin(), creases.end());
-    for (auto const& [a, b] : creases) {
-        ring.creaseVertices.insert(ring.creaseVertices.end(), {a, b});
-        ring.creaseSharpness.push_back(Sdc::Crease::SHARPNESS_INFINITE);
-    }
+    tables::AppendInnerCreases(
+        level, [](int) { return Sdc::Crease::SHARPNESS_INFINITE; }, ring);
     std::vector<int> sharpCorners;
     for (int i = 0; i < corners.size(); ++i) {
         // The face itself is the first in the ring.

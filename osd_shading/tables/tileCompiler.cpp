@@ -53,17 +53,6 @@ std::size_t TileDictionary::NumBytes() const {
     return bytes;
 }
 
-std::uint64_t HashOf(void const* data, std::size_t size) {
-    std::uint64_t hash = 14695981039346656037u;
-    auto const* bytes = static_cast<unsigned char const*>(data);
-    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 1099511628211u;
-    return hash;
-}
-
-std::size_t TileCompiler::KeyHash::operator()(std::vector<std::int32_t> const& key) const {
-    return static_cast<std::size_t>(HashOf(key.data(), key.size() * sizeof key[0]));
-}
-
 int TileCompiler::addClass(MadeClass&& made) {
     _dictionary.classes.push_back(std::move(made.tileClass));
     _sources.push_back(std::move(made.sources));

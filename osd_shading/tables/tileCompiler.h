@@ -49,9 +49,6 @@ struct MadeClass {
     TileField field;
 };
 
-/// FNV-1a.
-std::uint64_t HashOf(void const* data, std::size_t size);
-
 /// Finds the class of a face's neighbourhood, or makes it: with OpenSubdiv's own masks, in double precision.
 class TileCompiler {
 public:
@@ -71,9 +68,6 @@ public:
     TileDictionary Take();
 
 private:
-    struct KeyHash {
-        std::size_t operator()(std::vector<std::int32_t> const& key) const;
-    };
     using ClassMap = std::unordered_map<std::vector<std::int32_t>, int, KeyHash>;
 
     bool isCatmark() const { return _contents.rules.scheme == Sdc::SCHEME_CATMARK; }

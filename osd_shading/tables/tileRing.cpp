@@ -92,6 +92,17 @@ ControlMesh TileRing::Mesh(SubdivisionRules const& rules) const {
     return mesh;
 }
 
+std::uint64_t HashOf(void const* data, std::size_t size) {
+    std::uint64_t hash = 14695981039346656037u;
+    auto const* bytes = static_cast<unsigned char const*>(data);
+    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 1099511628211u;
+    return hash;
+}
+
+std::size_t KeyHash::operator()(std::vector<std::int32_t> const& key) const {
+    return static_cast<std::size_t>(HashOf(key.data(), key.size() * sizeof key[0]));
+}
+
 void TileRing::AppendKey(std::vector<std::int32_t>& key) const {
     key.push_back(tileFace);
     key.push_back(static_cast<std::int32_t>(faceSizes.size()));
@@ -198,20 +209,16 @@ bool TileRings::hasFadingEdges(TileRing const& ring) const {
     return false;
 }
 
-void TileRings::addSharpness(TileRing& ring, int face, int rotation, int numLevels) const {
-    auto const canonical = [&](float sharpness) {
-        return StaysSharp(sharpness, numLevels, _isUniform) ? Sdc::Crease::SHARPNESS_INFINITE : sharpness;
-    };
-
-    // Sharp edges between its faces; those of one face alone are boundaries here as there.
+void AppendInnerCreases(Far::TopologyLevel const& level, std::function<float(int)> const& sharpnessOf,
+                        TileRing& ring) {
     std::vector<std::pair<int, std::pair<int, int>>> edges;  // edge, its ends in the ring
     std::size_t offset = 0;
     for (std::size_t f = 0; f < ring.faces.size(); ++f) {
-        Far::ConstIndexArray const faceEdges = _level->GetFaceEdges(ring.faces[f]);
+        Far::ConstIndexArray const faceEdges = level.GetFaceEdges(ring.faces[f]);
         int const faceSize = ring.faceSizes[f];
         for (int i = 0; i < faceSize; ++i) {
             int const edge = faceEdges[(ring.firstCorners[f] + i) % faceSize];
-            if (!IsSharpEdge(*_level, edge)) continue;
+            if (!IsSharpEdge(level, edge)) continue;
             int const a = ring.faceVertices[offset + static_cast<std::size_t>(i)];
             int const b = ring.faceVertices[offset + static_cast<std::size_t>((i + 1) % faceSize)];
             edges.push_back({edge, std::minmax(a, b)});
@@ -223,13 +230,22 @@ void TileRings::addSharpness(TileRing& ring, int face, int rotation, int numLeve
     for (std::size_t i = 1; i < edges.size(); ++i) {
         bool const isSecond =
             edges[i].first == edges[i - 1].first && (i < 2 || edges[i].first != edges[i - 2].first);
-        if (isSecond) creases.emplace_back(edges[i].second, canonical(_level->GetEdgeSharpness(edges[i].first)));
+        if (isSecond) creases.emplace_back(edges[i].second, sharpnessOf(edges[i].first));
     }
     std::sort(creases.begin(), creases.end());
     for (auto const& [ends, sharpness] : creases) {
         ring.creaseVertices.insert(ring.creaseVertices.end(), {ends.first, ends.second});
         ring.creaseSharpness.push_back(sharpness);
     }
+}
+
+void TileRings::addSharpness(TileRing& ring, int face, int rotation, int numLevels) const {
+    auto const canonical = [&](float sharpness) {
+        return StaysSharp(sharpness, numLevels, _isUniform) ? Sdc::Crease::SHARPNESS_INFINITE : sharpness;
+    };
+
+    AppendInnerCreases(
+        *_level, [&](int edge) { return canonical(_level->GetEdgeSharpness(edge)); }, ring);
 
     Far::ConstIndexArray const corners = _level->GetFaceVertices(face);
     for (int i = 0; i < corners.size(); ++i) {

@@ -4,6 +4,7 @@
 // Internal: not installed, not for users.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -42,6 +43,19 @@ struct TileRing {
     void AppendKey(std::vector<std::int32_t>& key) const;
     std::size_t NumBytes() const;
 };
+
+/// The hash of a key that AppendKey made, or of a longer one. FNV-1a.
+struct KeyHash {
+    std::size_t operator()(std::vector<std::int32_t> const& key) const;
+};
+
+/// FNV-1a.
+std::uint64_t HashOf(void const* data, std::size_t size);
+
+/// Enters the sharp edges between faces of a ring, with sharpness `sharpnessOf(edge of the level)`, sorted. Edges
+/// of one face alone are boundaries in the ring's mesh as in the level, or lie at the ring's rim.
+void AppendInnerCreases(Far::TopologyLevel const& level, std::function<float(int)> const& sharpnessOf,
+                        TileRing& ring);
 
 /// Finds the rings of a level's faces.
 class TileRings {
