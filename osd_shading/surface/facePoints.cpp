@@ -200,18 +200,90 @@ void FacePoints<Real>::computeCorners(ShadingOptions const& options, FaceClass c
 }
 
 template <typename Real>
+template <int NumLanes, typename LineAt>
+void FacePoints<Real>::sumLines(LineAt const& lineAt, Real u, Real v, bool hasSecond, Sums& sums) const {
+    auto const add = [](Real* sum, Real weight, Real const* line) {
+        for (int k = 0; k < NumLanes; ++k) sum[k] += weight * line[k];
+    };
+    if (!_isCatmark) {
+        PatchBasis<Real> basis;  // NOLINT(cppcoreguidelines-pro-type-member-init): what is read is written first
+        EvaluateTriangleBasis(u, v, hasSecond, basis);
+        Real value[NumLanes] = {}, du[NumLanes] = {}, dv[NumLanes] = {};
+        for (int i = 0; i < kTrianglePoints; ++i) {
+            Real const* const line = lineAt(i);
+            add(value, basis.value[i], line);
+            add(du, basis.du[i], line);
+            add(dv, basis.dv[i], line);
+        }
+        std::copy(value, value + NumLanes, sums.v[0]);
+        std::copy(du, du + NumLanes, sums.v[1]);
+        std::copy(dv, dv + NumLanes, sums.v[2]);
+        for (int i = 0; i < kTrianglePoints && hasSecond; ++i) {
+            Real const* const line = lineAt(i);
+            add(sums.v[3], basis.duu[i], line);
+            add(sums.v[4], basis.duv[i], line);
+            add(sums.v[5], basis.dvv[i], line);
+        }
+        return;
+    }
+    // Rows of four points first.
+    CubicBasis<Real> alongU, alongV;  // NOLINT(cppcoreguidelines-pro-type-member-init): written at once
+    EvaluateCubicBasis(u, alongU);
+    EvaluateCubicBasis(v, alongV);
+    Real value[NumLanes] = {}, du[NumLanes] = {}, dv[NumLanes] = {};
+    for (int row = 0; row < 4; ++row) {
+        Real rowValue[NumLanes] = {}, rowDu[NumLanes] = {};
+        for (int column = 0; column < 4; ++column) {
+            Real const* const line = lineAt(4 * row + column);
+            add(rowValue, alongU.value[column], line);
+            add(rowDu, alongU.first[column], line);
+        }
+        add(value, alongV.value[row], rowValue);
+        add(du, alongV.value[row], rowDu);
+        add(dv, alongV.first[row], rowValue);
+        if (hasSecond) {
+            Real rowDuu[NumLanes] = {};
+            for (int column = 0; column < 4; ++column) {
+                add(rowDuu, alongU.second[column], lineAt(4 * row + column));
+            }
+            add(sums.v[3], alongV.value[row], rowDuu);
+            add(sums.v[4], alongV.first[row], rowDu);
+            add(sums.v[5], alongV.second[row], rowValue);
+        }
+    }
+    std::copy(value, value + NumLanes, sums.v[0]);
+    std::copy(du, du + NumLanes, sums.v[1]);
+    std::copy(dv, dv + NumLanes, sums.v[2]);
+}
+
+template <typename Real>
 template <typename LineAt>
-Vec3<Real> FacePoints<Real>::normalOfDoubtfulTangents(LineAt const& lineAt, PatchBasis<Real> const& basis,
-                                                      Sums const& sums, std::uint16_t phantoms, Real u,
-                                                      Real v) const {
+Vec3<Real> FacePoints<Real>::normalOfDoubtfulTangents(LineAt const& lineAt, Sums const& sums,
+                                                      std::uint16_t phantoms, Real u, Real v) const {
+    // What the tangents are sums of.
+    Real weightsDu[kQuadPoints], weightsDv[kQuadPoints];
+    if (_isCatmark) {
+        CubicBasis<Real> alongU, alongV;  // NOLINT(cppcoreguidelines-pro-type-member-init): written at once
+        EvaluateCubicBasis(u, alongU);
+        EvaluateCubicBasis(v, alongV);
+        for (int i = 0; i < kQuadPoints; ++i) {
+            weightsDu[i] = alongU.first[i % 4] * alongV.value[i / 4];
+            weightsDv[i] = alongU.value[i % 4] * alongV.first[i / 4];
+        }
+    } else {
+        PatchBasis<Real> basis;  // NOLINT(cppcoreguidelines-pro-type-member-init): what is read is written first
+        EvaluateTriangleBasis(u, v, false, basis);
+        std::copy(basis.du, basis.du + kTrianglePoints, weightsDu);
+        std::copy(basis.dv, basis.dv + kTrianglePoints, weightsDv);
+    }
     Vec3<Real> const position{sums.v[0][0], sums.v[0][1], sums.v[0][2]};
     Real added1 = 0, added2 = 0;
     int const count = _isCatmark ? kQuadPoints : kTrianglePoints;
     auto const pointAt = [&](int i) { return Vec3<Real>{lineAt(i)[0], lineAt(i)[1], lineAt(i)[2]}; };
     for (int i = 0; i < count; ++i) {
         Real const length = Length(pointAt(i) - position);
-        added1 += std::fabs(basis.du[i]) * length;
-        added2 += std::fabs(basis.dv[i]) * length;
+        added1 += std::fabs(weightsDu[i]) * length;
+        added2 += std::fabs(weightsDv[i]) * length;
     }
     if (added1 > 0 && added2 > 0) {
         Vec3<Real> const du{sums.v[1][0] / added1, sums.v[1][1] / added1, sums.v[1][2] / added1},
@@ -269,40 +341,12 @@ template <typename LineAt>
 void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool hasWeight, std::uint16_t phantoms,
                                      Real u, Real v, Real scale, bool hasSecond, Vec3<Real> const& origin,
                                      SurfacePoint<Real>& point) const {
-    PatchBasis<Real> basis;  // NOLINT(cppcoreguidelines-pro-type-member-init): all that is read is written first
-    int count = kTrianglePoints;
-    if (_isCatmark) {
-        count = kQuadPoints;
-        EvaluateQuadBasis(u, v, hasSecond, basis);
-    } else {
-        EvaluateTriangleBasis(u, v, hasSecond, basis);
-    }
-
-    // Sum the lines: positions alone where b is zero.
+    // Positions alone where b is zero: four lanes, for the machine's sake.
     Sums sums{};
-    auto const addTo = [&](Real(&sum)[kLanes], Real weight, Real const* line, int numLanes) {
-        for (int k = 0; k < numLanes; ++k) sum[k] += weight * line[k];
-    };
-    if (!hasWeight) {
-        for (int i = 0; i < count; ++i) {
-            Real const* const line = lineAt(i);
-            addTo(sums.v[0], basis.value[i], line, 4);
-            addTo(sums.v[1], basis.du[i], line, 4);
-            addTo(sums.v[2], basis.dv[i], line, 4);
-        }
+    if (hasSecond || hasWeight) {
+        sumLines<kLanes>(lineAt, u, v, hasSecond, sums);
     } else {
-        for (int i = 0; i < count; ++i) {
-            Real const* const line = lineAt(i);
-            addTo(sums.v[0], basis.value[i], line, kLanes);
-            addTo(sums.v[1], basis.du[i], line, kLanes);
-            addTo(sums.v[2], basis.dv[i], line, kLanes);
-        }
-    }
-    for (int i = 0; i < count && hasSecond; ++i) {
-        Real const* const line = lineAt(i);
-        addTo(sums.v[3], basis.duu[i], line, kLanes);
-        addTo(sums.v[4], basis.duv[i], line, kLanes);
-        addTo(sums.v[5], basis.dvv[i], line, kLanes);
+        sumLines<4>(lineAt, u, v, hasSecond, sums);
     }
     auto const vectorAt = [&](int sum, int lane) {
         return Vec3<Real>{sums.v[sum][lane], sums.v[sum][lane + 1], sums.v[sum][lane + 2]};
@@ -318,7 +362,7 @@ void FacePoints<Real>::evaluatePatch(double exponent, LineAt const& lineAt, bool
         point.limitNormal = (1 / crossLength) * cross;
     } else {
         crossLength = Length(cross);
-        point.limitNormal = normalOfDoubtfulTangents(lineAt, basis, sums, phantoms, u, v);
+        point.limitNormal = normalOfDoubtfulTangents(lineAt, sums, phantoms, u, v);
     }
     point.position = vectorAt(0, 0) + origin;
     point.du = scale * du;

@@ -48,9 +48,12 @@ private:
     void evaluatePatch(double exponent, LineAt const& lineAt, bool hasWeight, std::uint16_t phantoms, Real u,
                        Real v, Real scale, bool hasSecond, Vec3<Real> const& origin,
                        SurfacePoint<Real>& point) const;
+    /// The sums of the first `NumLanes` lanes.
+    template <int NumLanes, typename LineAt>
+    void sumLines(LineAt const& lineAt, Real u, Real v, bool hasSecond, Sums& sums) const;
     template <typename LineAt>
-    Vec3<Real> normalOfDoubtfulTangents(LineAt const& lineAt, PatchBasis<Real> const& basis, Sums const& sums,
-                                        std::uint16_t phantoms, Real u, Real v) const;
+    Vec3<Real> normalOfDoubtfulTangents(LineAt const& lineAt, Sums const& sums, std::uint16_t phantoms, Real u,
+                                        Real v) const;
 
     std::shared_ptr<FacePatches const> _patches;
     bool _isCatmark;
