@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "osd_shading/parallel.h"
+#include "osd_shading/vertexTags.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -84,19 +85,6 @@ int numberRegions(Far::TopologyLevel const& level, int vertex, std::vector<int>&
                                              : numberOrderedRegions(level, vertex, regionOfFace);
 }
 
-VertexKind kindOf(Sdc::Crease::Rule rule) {
-    switch (rule) {
-        case Sdc::Crease::RULE_CORNER:
-            return VertexKind::Corner;
-        case Sdc::Crease::RULE_CREASE:
-            return VertexKind::Crease;
-        case Sdc::Crease::RULE_DART:
-            return VertexKind::Dart;
-        default:
-            return VertexKind::Smooth;
-    }
-}
-
 }  // namespace
 
 CreaseRegions::CreaseRegions(RefinedTopology const& topology, int levelIndex, int numThreads) {
@@ -112,7 +100,7 @@ CreaseRegions::CreaseRegions(RefinedTopology const& topology, int levelIndex, in
     ParallelFor(numVertices, numThreads, [&](int begin, int end, int chunk) {
         std::vector<int> regionOfFace;
         for (int v = begin; v < end; ++v) {
-            VertexKind const kind = kindOf(level.GetVertexRule(v));
+            VertexKind const kind = KindOf(level.GetVertexRule(v));
             _kinds[static_cast<std::size_t>(v)] = kind;
             bool const isOneRegion = kind <= VertexKind::Dart && !level.IsVertexNonManifold(v);
             int const numRegions = level.GetVertexFaces(v).size() == 0 ? 0

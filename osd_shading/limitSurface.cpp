@@ -183,6 +183,10 @@ LimitSurface<Real> LimitSurface<Real>::Moved(ShadingInput<Real> const& input) co
 }
 
 template <typename Real>
+ShadingInput<Real> const& LimitSurface<Real>::Input() const {
+    return _faces->input;
+}
+template <typename Real>
 ShadingOptions const& LimitSurface<Real>::Options() const {
     return _topology->options.shading;
 }

@@ -109,7 +109,8 @@ public:
     /// The same mesh with other positions: shares what does not depend on them.
     LimitSurface Moved(ShadingInput<Real> const& input) const;
 
-    ShadingOptions const& Options() const;  ///< as resolved: no level is left to the library
+    ShadingInput<Real> const& Input() const;  ///< the views that were given
+    ShadingOptions const& Options() const;    ///< as resolved: no level is left to the library
     Far::TopologyRefiner const& Refiner()
         const;                     ///< whose level 0 is the control mesh; lives as long as the surface
     int NumFaces() const;          ///< of the control mesh

@@ -12,8 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "osd_shading/creaseRegions.h"
 #include "osd_shading/parallel.h"
 #include "osd_shading/vectorMath.h"
+#include "osd_shading/vertexTags.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -67,7 +69,7 @@ public:
         findRates();
         checkSize();
         _faces.resize(index(_level.GetNumFaces()));
-        ParallelForEach(_level.GetNumFaces(), _options.numThreads, [&](int face) { cutFace(face); });
+        cutFaces();
         numberPoints();
         return std::move(_result);
     }
@@ -196,6 +198,18 @@ private:
 
     // --- Faces
 
+    void cutFaces() {
+        int const numFaces = _level.GetNumFaces();
+        constexpr int kMostReports = 100, kLeastFaces = 64;
+        int const step = _options.progress ? std::max(kLeastFaces, numFaces / kMostReports) : numFaces;
+        for (int first = 0; first < numFaces; first += step) {
+            ParallelForEach(std::min(step, numFaces - first), _options.numThreads,
+                            [&](int i) { cutFace(first + i); });
+            double const done = static_cast<double>(std::min(numFaces, first + step)) / numFaces;
+            if (_options.progress && !_options.progress(done)) throw Cancelled("the tessellation was abandoned");
+        }
+    }
+
     void cutFace(int face) {
         if (isLeftOut(face)) return;
         Face& made = _faces[index(face)];
@@ -219,7 +233,7 @@ private:
     /// The vertex at a face's boundary point, which all faces at it share.
     int vertexAt(int face, int edge, int i) const {
         Far::ConstIndexArray const vertices = _level.GetFaceVertices(face);
-        if (i == 0) return _vertexOf[index(vertices[edge])];
+        if (i == 0) return vertices[edge];
         int const e = _level.GetFaceEdges(face)[edge], rate = _rates[index(e)];
         bool const isForward = _level.GetEdgeVertices(e)[0] == vertices[edge];
         return _firstOfEdge[index(e)] + (isForward ? i : rate - i) - 1;
@@ -227,16 +241,12 @@ private:
 
     void numberPoints() {
         int const numFaces = _level.GetNumFaces();
-        // Vertices, face by face: of control vertices and edges that are new, then those inside.
-        std::int64_t count = 0;
+        // Vertices: those of the control mesh, then face by face of edges that are new, and those inside.
+        std::int64_t count = _level.GetNumVertices();
         std::vector<int> firstInside(_faces.size(), 0);
-        _vertexOf.assign(index(_level.GetNumVertices()), -1);
         _firstOfEdge.assign(index(_level.GetNumEdges()), -1);
         for (int f = 0; f < numFaces; ++f) {
             if (isLeftOut(f)) continue;
-            for (int const v : _level.GetFaceVertices(f)) {
-                if (_vertexOf[index(v)] < 0) _vertexOf[index(v)] = static_cast<int>(count++);
-            }
             for (int const e : _level.GetFaceEdges(f)) {
                 if (_firstOfEdge[index(e)] >= 0) continue;
                 _firstOfEdge[index(e)] = static_cast<int>(count);
@@ -251,7 +261,9 @@ private:
         result.options = _surface.Options();
         result.faceSize = 3;
         result.positions.resize(static_cast<std::size_t>(count));
-        result.vertexTags.resize(static_cast<std::size_t>(count));
+        for (int v = 0; v < _level.GetNumVertices(); ++v) {
+            result.positions[index(v)] = _surface.Input().positions[index(v)];  // stays where no face is
+        }
         std::vector<unsigned char> isPlaced(static_cast<std::size_t>(count), 0);
         std::vector<std::vector<int>> vertexOfPoint(_faces.size());
         for (int f = 0; f < numFaces; ++f) {
@@ -271,6 +283,9 @@ private:
             }
         }
         makeValues(vertexOfPoint);
+        tagVertices();
+        findCreaseEdges();
+        fillReport();
     }
 
     /// A value for each different normal at a vertex.
@@ -329,15 +344,52 @@ private:
                 if (i % 3 == 0) result.baseFaces.push_back(static_cast<int>(f));
             }
         }
-        count();
     }
 
-    void count() {
+    /// Points of a control edge, its ends too.
+    std::vector<int> pointsOf(int edge) const {
+        Far::ConstIndexArray const ends = _level.GetEdgeVertices(edge);
+        std::vector<int> points{ends[0]};
+        for (int i = 0; i + 1 < _rates[index(edge)]; ++i) points.push_back(_firstOfEdge[index(edge)] + i);
+        points.push_back(ends[1]);
+        return points;
+    }
+
+    void tagVertices() {
+        std::vector<VertexTag>& tags = _result.vertexTags;
+        tags.resize(_result.positions.size());
+        for (int v = 0; v < _level.GetNumVertices(); ++v)
+            tags[index(v)] = TagOf(_scheme == Sdc::SCHEME_CATMARK, _level, v);
+        for (int e = 0; e < _level.GetNumEdges(); ++e) {
+            if (_firstOfEdge[index(e)] < 0) continue;
+            VertexTag tag;
+            tag.kind = IsSharpEdge(_level, e) ? VertexKind::Crease : VertexKind::Smooth;
+            tag.isBoundary = _level.IsEdgeBoundary(e);
+            tag.isNonManifold = _level.IsEdgeNonManifold(e);
+            for (int i = 0; i + 1 < _rates[index(e)]; ++i) tags[index(_firstOfEdge[index(e)] + i)] = tag;
+        }
+    }
+
+    void findCreaseEdges() {
+        for (int e = 0; e < _level.GetNumEdges(); ++e) {
+            if (_firstOfEdge[index(e)] < 0 || !IsSharpEdge(_level, e)) continue;
+            float const sharpness = _level.GetEdgeSharpness(e);
+            std::vector<int> const points = pointsOf(e);
+            for (std::size_t i = 1; i < points.size(); ++i) {
+                _result.creaseEdges.push_back(
+                    {{points[i - 1], points[i]}, sharpness, sharpness, _level.IsEdgeBoundary(e)});
+            }
+        }
+    }
+
+    void fillReport() {
         ShadingResult<Real>& result = _result;
         ShadingReport& report = result.report;
         report.vertices = result.NumVertices();
         report.faces = result.NumFaces();
         report.values = result.NumValues();
+        for (VertexTag const& tag : result.vertexTags) CountTag(tag, report);
+        for (int e = 0; e < _level.GetNumEdges(); ++e) report.nonManifoldEdges += _level.IsEdgeNonManifold(e);
         double sum = 0;
         for (std::size_t i = 0; i < result.blendWeights.size(); ++i) {
             report.subdividedValues += result.blendWeights[i] > 0;
@@ -365,7 +417,7 @@ private:
     Sdc::SchemeType _scheme;
     std::vector<int> _rates;  // by edge
     std::vector<Face> _faces;
-    std::vector<int> _vertexOf, _firstOfEdge;
+    std::vector<int> _firstOfEdge;  // by edge: the first point inside it; -1: no face has it
     ShadingResult<Real> _result;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "osd_shading/export.h"
 #include "osd_shading/limitSurface.h"
@@ -30,18 +31,20 @@ struct TessellationOptions {
     std::array<double, 16> viewProjection{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     int width = 1920;   ///< of the screen, in pixels
     int height = 1080;  ///< of the screen, in pixels
+
+    std::function<bool(double)> progress;  ///< as in ExecutionOptions. Default: none
 };
 
 /// Cuts a limit surface into triangles: adaptive, and watertight, as both faces at an edge take its points from it.
 ///
 /// Control faces are cut as Bfr::Tessellation does, with a rate for each edge. Of the result, positions, normals,
-/// weights, faces, values and counts are set; there is one value for each side of a crease, as in ShadeSubdivision,
-/// and values of a vertex whose normals agree (to 1e-6, in float 1e-4) are one. Tags of vertices and crease edges
-/// are not found.
+/// weights, faces, values, tags, crease edges and counts are set; there is one value for each side of a crease, as
+/// in ShadeSubdivision, and values of a vertex whose normals agree (to 1e-6, in float 1e-4) are one. Vertices of
+/// the control mesh come first and keep their numbers; they have its tags, and points of its edges those of its
+/// creases.
 ///
-/// ERRORS: InvalidOptions, MemoryLimitExceeded (by the surface's `execution.memoryLimit`); nothing else but
-/// std::bad_alloc.
-/// COST: that of evaluating each point, once for each face at it.   [Bfr::Tessellation]
+/// ERRORS: InvalidOptions, Cancelled, MemoryLimitExceeded (by the surface's `execution.memoryLimit`); nothing else
+/// but std::bad_alloc. COST: that of evaluating each point, once for each face at it.   [Bfr::Tessellation]
 template <typename Real>
 ShadingResult<Real> TessellateLimitSurface(LimitSurface<Real> const& surface, TessellationOptions const& options);
 

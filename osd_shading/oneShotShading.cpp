@@ -10,13 +10,13 @@
 #include "osd_shading/blendWeights.h"
 #include "osd_shading/blendedNormals.h"
 #include "osd_shading/errors.h"
-#include "osd_shading/extraordinaryVertices.h"
 #include "osd_shading/limitFrames.h"
 #include "osd_shading/numberText.h"
 #include "osd_shading/parallel.h"
 #include "osd_shading/refinedPrimvars.h"
 #include "osd_shading/startNormals.h"
 #include "osd_shading/subdividedNormals.h"
+#include "osd_shading/vertexTags.h"
 
 namespace osd_shading {
 inline namespace v1 {
@@ -205,23 +205,14 @@ void collectFaces(RefinedTopology const& topology, CreaseRegions const& regions,
 
 /// Tags of the vertices of the last level, and their counts.
 template <typename Real>
-void tagVertices(RefinedTopology const& topology, CreaseRegions const& regions, ShadingResult<Real>& result) {
+void tagVertices(RefinedTopology const& topology, ShadingResult<Real>& result) {
     Far::TopologyLevel const& last = topology.Level(topology.LastLevel());
     ShadingReport& report = result.report;
     result.vertexTags.resize(static_cast<std::size_t>(last.GetNumVertices()));
     for (int v = 0; v < last.GetNumVertices(); ++v) {
         VertexTag& tag = result.vertexTags[static_cast<std::size_t>(v)];
-        tag.kind = regions.Kind(v);
-        tag.valence = static_cast<std::uint16_t>(std::min(last.GetVertexEdges(v).size(), 65535));
-        tag.isBoundary = last.IsVertexBoundary(v);
-        tag.isExtraordinary = IsExtraordinary(topology, last, v);
-        tag.isNonManifold = last.IsVertexNonManifold(v) && last.GetVertexFaces(v).size() > 0;
-        if (tag.isExtraordinary)
-            ++(tag.isBoundary ? report.boundaryExtraordinary : report.extraordinary)[tag.valence];
-        report.sharpVertices += regions.IsSharp(v);
-        report.darts += tag.kind == VertexKind::Dart;
-        report.boundaryVertices += tag.isBoundary;
-        report.nonManifoldVertices += tag.isNonManifold;
+        tag = TagOf(topology.IsCatmark(), last, v);
+        CountTag(tag, report);
     }
     for (int e = 0; e < last.GetNumEdges(); ++e) report.nonManifoldEdges += last.IsEdgeNonManifold(e);
 }
@@ -380,7 +371,7 @@ ShadingResult<Real> ShadeOnce(RefinedTopology const& topology, ShadingInput<Real
                   result.valueVertices.begin() + regions.FirstValue(v + 1), v);
     }
     collectFaces(topology, regions, result);
-    tagVertices(topology, regions, result);
+    tagVertices(topology, result);
     result.creaseEdges = collectCreaseEdges(topology);
     for (PrimvarView<Real> const& data : input.vertexData) {
         result.vertexData.push_back(RefineVertexData(topology, data, options.limits.positions));

@@ -78,12 +78,10 @@ TEST(LimitTessellation, HasNoGapsAndTheShapesEulerNumberWhateverTheRates) {
     for (Shape const& shape : AllShapes()) {
         if (!IsClosed(shape)) continue;
         ++numClosed;
-        int const euler = [&] {
-            RefinedTopology const topology(shape.Mesh(), 0);
-            Far::TopologyLevel const& level = topology.Level(0);
-            std::set<int> used(shape.faceVertices.begin(), shape.faceVertices.end());
-            return static_cast<int>(used.size()) - level.GetNumEdges() + level.GetNumFaces();
-        }();
+        std::set<int> const used(shape.faceVertices.begin(), shape.faceVertices.end());
+        auto const numUsed = static_cast<int>(used.size());
+        RefinedTopology const topology(shape.Mesh(), 0);
+        int const euler = numUsed - topology.Level(0).GetNumEdges() + topology.Level(0).GetNumFaces();
         for (TessellationOptions const& options :
              {Uniform(1), Uniform(3), Uniform(4), Curvature(7), Curvature(25)}) {
             ShadingResult<double> const result = Cut<double>(shape, options);
@@ -97,7 +95,9 @@ TEST(LimitTessellation, HasNoGapsAndTheShapesEulerNumberWhateverTheRates) {
                 }
                 numDirected += uses;
             }
-            EXPECT_EQ(result.NumVertices() - numDirected / 2 + result.NumFaces(), euler) << shape.name;
+            int const numIsolated = shape.NumVertices() - numUsed;
+            EXPECT_EQ(result.NumVertices() - numIsolated - numDirected / 2 + result.NumFaces(), euler)
+                << shape.name;
         }
     }
     EXPECT_GE(numClosed, 8);
@@ -183,6 +183,62 @@ TEST(LimitTessellation, LeavesHolesOut) {
     ShadingResult<double> const result = Cut<double>(shape, Uniform(2));
     EXPECT_EQ(result.NumFaces(), 8 * 8);
     EXPECT_EQ(std::count(result.baseFaces.begin(), result.baseFaces.end(), 4), 0);
+}
+
+TEST(LimitTessellation, KeepsTheNumbersOfControlVerticesAndTheirCreases) {
+    // A lone vertex in the midst of the numbers.
+    Shape shape = shapes::CubeWithSharpTop();
+    shape.positions.insert(shape.positions.begin() + 6, {7, 8, 9});
+    for (int& v : shape.faceVertices) v += v >= 2;
+    for (int& v : shape.creaseVertices) v += v >= 2;
+    ShadingResult<double> const result = Cut<double>(shape, Uniform(4));
+    RefinedTopology const topology(shape.Mesh(), 0);
+    Far::TopologyLevel const& level = topology.Level(0);
+    std::vector<Vec3<double>> const points = PointsOf<double>(shape);
+    ShadingInput<double> input;
+    input.positions = points;
+    LimitSurface<double> const surface(shape.Mesh(), input);
+    for (int f = 0; f < level.GetNumFaces(); ++f) {
+        Vec3<double> const corner = surface.Evaluate(f, 0, 0).position;
+        EXPECT_LT(Length(corner - result.positions[Index(level.GetFaceVertices(f)[0])]), 1e-12);
+    }
+    EXPECT_EQ(Length(result.positions[2] - Vec3<double>{7, 8, 9}), 0);
+    EXPECT_EQ(result.vertexValues[2], result.vertexValues[3]);
+    for (int v = 0; v < level.GetNumVertices(); ++v) {
+        VertexTag const& tag = result.vertexTags[Index(v)];
+        EXPECT_EQ(tag.valence, level.GetVertexEdges(v).size());
+        EXPECT_EQ(tag.kind == VertexKind::Crease, level.GetVertexRule(v) == Sdc::Crease::RULE_CREASE);
+    }
+
+    // Four edges of the sharp top, four segments each, strung together from vertex to vertex.
+    EXPECT_EQ(result.creaseEdges.size(), 4U * 4U);
+    auto const edges = EdgesOf(result);
+    std::map<int, int> uses;
+    for (CreaseEdge const& edge : result.creaseEdges) {
+        EXPECT_TRUE(edges.count({edge.vertices[0], edge.vertices[1]}) > 0);
+        for (int const v : edge.vertices) {
+            ++uses[v];
+            EXPECT_EQ(result.vertexTags[Index(v)].kind, VertexKind::Crease);
+        }
+    }
+    EXPECT_EQ(uses.size(), 4U * 4U);
+    for (auto const& [vertex, count] : uses) EXPECT_EQ(count, 2);
+}
+
+TEST(LimitTessellation, SaysHowFarItIsAndCanBeAbandoned) {
+    TessellationOptions options = Uniform(2);
+    std::vector<double> shares;
+    options.progress = [&](double share) {
+        shares.push_back(share);
+        return true;
+    };
+    Shape const sheet = shapes::QuadGrid(20, 20);
+    Cut<double>(sheet, options);
+    EXPECT_GT(shares.size(), 3U);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.back(), 1);
+    options.progress = [](double share) { return share < 0.5; };
+    EXPECT_NE(ErrorOf<Cancelled>([&] { Cut<double>(sheet, options); }).find("abandoned"), std::string::npos);
 }
 
 TEST(LimitTessellation, RefusesInWords) {

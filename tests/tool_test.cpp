@@ -470,7 +470,11 @@ TEST(Tessellation, IsReportedAndWrittenAsTriangles) {
     json const uniform = ReportOf({ModelPath("cube_dart"), "--tessellate", "4"});
     EXPECT_EQ(uniform["faces"], 6 * 4 * 4 * 2);
     EXPECT_EQ(uniform["vertices"], 8 + 12 * 3 + 6 * 9);
-    EXPECT_TRUE(uniform["extraordinary"].is_null());
+    // Eight corners, one of which is a crease vertex; three points on each of three edges that are creases.
+    EXPECT_EQ(uniform["extraordinary"], json({{"3", 8}}));
+    EXPECT_EQ(uniform["sharp_vertices"], 1 + 3 * 3);
+    EXPECT_EQ(uniform["darts"], 4);
+    EXPECT_TRUE(uniform["fallback_normals"].is_null());
     EXPECT_GT(uniform["seconds"]["tessellation"], 0.0);
     json const coarse = ReportOf({ModelPath("mug"), "--tessellate", "curvature", "--max-angle", "20"}),
                fine = ReportOf({ModelPath("mug"), "--tessellate", "curvature", "--max-angle", "5"});

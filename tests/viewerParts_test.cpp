@@ -211,6 +211,10 @@ TEST(ViewerSettings, TheirTextGivesTheSameSettings) {
                                             "double",
                                             "--memory-limit",
                                             "2G",
+                                            "--tessellate",
+                                            "curvature",
+                                            "--max-angle",
+                                            "7.5",
                                             "--screenshot-multiple",
                                             "3"};
     auto const given = ParseCommandLine(words);
@@ -224,6 +228,8 @@ TEST(ViewerSettings, TheirTextGivesTheSameSettings) {
     EXPECT_EQ(read->settings.camera.camera, given->settings.camera.camera);
     EXPECT_EQ(read->settings.run, given->settings.run);
     EXPECT_EQ(read->settings.run.memoryLimit, std::uint64_t{2} << 30);
+    EXPECT_EQ(read->settings.tessellation, given->settings.tessellation);
+    EXPECT_EQ(read->settings.tessellation.Resolve()->maxAngle, 7.5);
     EXPECT_EQ(read->settings.screenshotMultiple, 3);
     EXPECT_EQ(read->settings.shading.exponent, 2.5);
     EXPECT_EQ(read->settings.mesh.creaseAngle, 30.0);
@@ -251,6 +257,35 @@ TEST(SurfaceTopology, HasEachControlEdgeAsACurveBetweenItsVertices) {
             EXPECT_EQ(curves.size(), scene->topology->curves.size());
         }
     }
+}
+
+TEST(SurfaceTopology, HasControlEdgesAsCurvesOnAdaptiveTrianglesToo) {
+    for (std::string const name : {"cube_creased", "mug", "pencil_ngons", "hat", "open_box", "ring"}) {
+        for (std::string const cut : {"curvature", "screen", "5"}) {
+            SCOPED_TRACE(name + " " + cut);
+            auto const line = ParseCommandLine({name, "--tessellate", cut});
+            auto const model = std::make_shared<io::Model>(LoadModel(name));
+            SceneBuilder builder;
+            auto const scene =
+                builder.Build(MakeRequest(line->settings, model, name, {640, 400}), [](double) { return true; });
+            EXPECT_EQ(scene->topology->faceSize, 3);
+            std::set<EdgeKey> curves;
+            for (ControlCurve const& curve : scene->topology->curves) curves.insert(curve.vertices);
+            EXPECT_EQ(curves, EdgesOf(LoadModel(name)));
+            EXPECT_EQ(curves.size(), scene->topology->curves.size());
+        }
+    }
+}
+
+TEST(SceneBuilder, CutsFinerForALargerScreen) {
+    auto const line = ParseCommandLine({"mug", "--tessellate", "screen"});
+    auto const model = std::make_shared<io::Model>(LoadModel("mug"));
+    auto const facesOn = [&](glm::ivec2 size) {
+        SceneBuilder builder;
+        return builder.Build(MakeRequest(line->settings, model, "mug", size), [](double) { return true; })
+            ->report.faces;
+    };
+    EXPECT_GT(facesOn({1280, 800}), 2 * facesOn({320, 200}));
 }
 
 TEST(SurfaceTopology, HasEachEdgeOnce) {

@@ -402,6 +402,19 @@ TEST(WholePicture, IsTheSameInBothPrecisionsButForTheEdgesOfBands) {
     }
 }
 
+TEST(WholePicture, IsTheSameOfAdaptiveTrianglesThatAreFine) {
+    for (std::string const model : {"mug", "letter_a"}) {
+        Words const words = Joined({ModelPath(model), "--shading", "lit", "--overlay", "creases"}, kSmall);
+        Picture const uniform = Draw(Joined(words, {"--level", "5"}));
+        for (Words const& cut :
+             {Words{"32"}, Words{"screen", "--max-pixels", "1"}, Words{"curvature", "--max-angle", "2"}}) {
+            SCOPED_TRACE(model + " " + cut[0]);
+            Picture const adaptive = Draw(Joined(Joined(words, {"--tessellate"}), cut));
+            EXPECT_LT(NumDifferent(uniform, adaptive, 24), uniform.NumCovered() / 50);
+        }
+    }
+}
+
 TEST(WholePicture, MovesWithTheModel) {
     Words const words = Joined({ModelPath("letter_a")}, kSmall);
     Picture const rest = Draw(words);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "tessellationOptions.h"
+
 #define OSD_SHADE_TEXT_(x) #x
 #define OSD_SHADE_TEXT(x) OSD_SHADE_TEXT_(x)
 
@@ -25,8 +27,7 @@ struct GivenOptions {
     std::optional<double> tolerance;
     std::optional<int> frames;
     std::optional<DeformationKind> deformation;
-    std::optional<TessellationOptions> tessellation;
-    std::optional<double> maxAngle, maxPixels;
+    TessellationChoice tessellation;
 };
 
 // Options of files come first in the help, those that few need last.
@@ -79,37 +80,7 @@ bool ParseList(std::string_view text, char separator, T* numbers, std::size_t co
     return true;
 }
 
-void AddTessellationOptions(CLI::App& app, CommandLine& line, GivenOptions& given) {
-    static constexpr char kGroup[] = "Adaptive triangles";
-    auto const readKind = [&given](std::string const& text) {
-        TessellationOptions options;
-        if (text == "screen") {
-            options.kind = TessellationKind::Screen;
-        } else if (text == "curvature") {
-            options.kind = TessellationKind::Curvature;
-        } else {
-            std::optional<int> const rate = ParseNumber<int>(text);
-            if (!rate || *rate < 1 || *rate > 1024) {
-                Refuse("--tessellate", "'" + text + "' is not screen, curvature or a number from 1 to 1024");
-            }
-            options.rate = *rate;
-        }
-        given.tessellation = options;
-    };
-    app.add_option_function<std::string>(
-           "--tessellate", readKind,
-           "In place of a uniform level: triangles on the limit surface, by the length of edges on a screen, by "
-           "curvature, or N segments to each edge. --level is then that at which weights end (default: where all "
-           "creases are released)")
-        ->type_name("screen|curvature|N")
-        ->group(kGroup);
-    auto const isPositive = [](double x) { return std::isfinite(x) && x > 0; };
-    AddNumber(app, "--max-angle", given.maxAngle, "a number above 0", isPositive,
-              "curvature: degrees that the surface turns from point to point (default 10)")
-        ->group(kGroup);
-    AddNumber(app, "--max-pixels", given.maxPixels, "a number above 0", isPositive,
-              "screen: length of a segment (default 8), on a screen of 1920 x 1080")
-        ->group(kGroup);
+void AddEyeOption(CLI::App& app, CommandLine& line) {
     auto const readEye = [&line](std::string const& text) {
         double numbers[3] = {};
         bool const isRead = ParseList(text, ',', numbers, 3);
@@ -119,27 +90,18 @@ void AddTessellationOptions(CLI::App& app, CommandLine& line, GivenOptions& give
         line.eye = Vec3<double>{numbers[0], numbers[1], numbers[2]};
     };
     app.add_option_function<std::string>(
-           "--eye", readEye, "screen: where the model is looked at from (default: the front, all of it in view)")
+           "--eye", readEye,
+           "screen of 1920 x 1080: where the model is looked at from (default: the front, all of it in view)")
         ->type_name("X,Y,Z")
-        ->group(kGroup);
+        ->group(kTessellationGroup);
 }
 
 // What triangles of the limit surface do not go with.
 void ResolveTessellation(CLI::App const& app, CommandLine& line, GivenOptions const& given) {
-    for (char const* option : {"--max-angle", "--max-pixels", "--eye"}) {
-        if (app.count(option) > 0 && !given.tessellation)
-            Refuse(option, "nothing is tessellated; give --tessellate");
-    }
-    if (!given.tessellation) return;
-    line.tessellation = given.tessellation;
-    TessellationKind const kind = given.tessellation->kind;
-    if (given.maxAngle && kind != TessellationKind::Curvature)
-        Refuse("--max-angle", "goes with --tessellate curvature");
-    if (given.maxPixels && kind != TessellationKind::Screen)
-        Refuse("--max-pixels", "goes with --tessellate screen");
-    if (line.eye && kind != TessellationKind::Screen) Refuse("--eye", "goes with --tessellate screen");
-    Replace(line.tessellation->maxAngle, given.maxAngle);
-    Replace(line.tessellation->maxPixels, given.maxPixels);
+    line.tessellation = given.tessellation.Resolve();
+    if (line.eye && !line.tessellation) Refuse("--eye", "nothing is tessellated; give --tessellate");
+    if (!line.tessellation) return;
+    if (line.eye && !given.tessellation.IsScreen()) Refuse("--eye", "goes with --tessellate screen");
     for (char const* option : {"--check", "--frames", "--stats", "--cage"}) {
         if (app.count(option) > 0) Refuse(option, "needs a uniform level, which --tessellate has not");
     }
@@ -164,7 +126,8 @@ std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
     AddRunOptions(app, given.run, "double");
     AddCheckOptions(app, line, given);
     AddFrameOptions(app, line, given);
-    AddTessellationOptions(app, line, given);
+    AddTessellationOptions(app, given.tessellation);
+    AddEyeOption(app, line);
     try {
         app.parse(argc, argv);
     } catch (CLI::Success const& success) {
@@ -177,7 +140,7 @@ std::optional<CommandLine> ParseCommandLine(int argc, char const* const* argv) {
     Replace(line.precision, given.run.precision);
     line.memoryLimit = given.run.memoryLimit;
     line.tolerance = given.tolerance.value_or(line.precision == Precision::Double ? 1e-12 : 1e-6);
-    line.shading = given.shading.Resolve(given.tessellation ? kDefaultSurfaceLevel : ShadingOptions{}.level);
+    line.shading = given.shading.Resolve(given.tessellation.kind ? kDefaultSurfaceLevel : ShadingOptions{}.level);
     line.shading.execution.numThreads = given.run.threads.value_or(0);
 
     ResolveTessellation(app, line, given);

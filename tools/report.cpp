@@ -211,9 +211,7 @@ std::string TableText(CommandLine const& line, RunSummary const& run) {
     table.Add("vertices", CountText(report.vertices));
     table.Add("faces", CountText(report.faces));
     table.Add("values", CountText(report.values));
-    // Triangles of the limit surface know nothing of the mesh's vertices.
-    bool const isMesh = !line.tessellation;
-    if (isMesh) table.Add("extraordinary", ValenceText(report.extraordinary));
+    table.Add("extraordinary", ValenceText(report.extraordinary));
     if (report.boundaryVertices > 0) {
         table.Add("boundary vertices", CountText(report.boundaryVertices));
         table.Add("boundary extraordinary", ValenceText(report.boundaryExtraordinary));
@@ -222,14 +220,14 @@ std::string TableText(CommandLine const& line, RunSummary const& run) {
         table.Add("non-manifold", CountText(report.nonManifoldVertices) + " vertices, " +
                                       CountText(report.nonManifoldEdges) + " edges");
     }
-    if (isMesh) {
-        table.Add("sharp vertices", CountText(report.sharpVertices));
-        table.Add("darts", CountText(report.darts));
-    }
+    table.Add("sharp vertices", CountText(report.sharpVertices));
+    table.Add("darts", CountText(report.darts));
     table.Add("vertices with weight", CountText(report.verticesWithWeight));
     table.Add("angle N_L to N_B", AngleText(run));
     table.Add("zero normals", CountText(report.zeroNormals));
     if (report.zeroStartNormals > 0) table.Add("zero start normals", CountText(report.zeroStartNormals));
+    // Triangles of the limit surface do not say.
+    bool const isMesh = !line.tessellation;
     if (isMesh) {
         table.Add("fallback normals", CountText(report.fallbackNormals));
         table.Add("averaged normals", CountText(report.averagedNormals));
@@ -274,15 +272,15 @@ std::string JsonText(CommandLine const& line, RunSummary const& run) {
     json["vertices"] = report.vertices;
     json["faces"] = report.faces;
     json["values"] = report.values;
-    // Triangles of the limit surface know nothing of the mesh's vertices.
+    // Triangles of the limit surface do not say.
     auto const ofMesh = [&](Json const& value) { return line.tessellation ? Json() : value; };
-    json["extraordinary"] = ofMesh(ValenceJson(report.extraordinary));
-    json["boundary_extraordinary"] = ofMesh(ValenceJson(report.boundaryExtraordinary));
-    json["sharp_vertices"] = ofMesh(report.sharpVertices);
-    json["darts"] = ofMesh(report.darts);
-    json["boundary_vertices"] = ofMesh(report.boundaryVertices);
-    json["non_manifold_vertices"] = ofMesh(report.nonManifoldVertices);
-    json["non_manifold_edges"] = ofMesh(report.nonManifoldEdges);
+    json["extraordinary"] = ValenceJson(report.extraordinary);
+    json["boundary_extraordinary"] = ValenceJson(report.boundaryExtraordinary);
+    json["sharp_vertices"] = report.sharpVertices;
+    json["darts"] = report.darts;
+    json["boundary_vertices"] = report.boundaryVertices;
+    json["non_manifold_vertices"] = report.nonManifoldVertices;
+    json["non_manifold_edges"] = report.nonManifoldEdges;
     json["vertices_with_weight"] = report.verticesWithWeight;
     json["subdivided_values"] = report.subdividedValues;
     json["zero_start_normals"] = ofMesh(report.zeroStartNormals);

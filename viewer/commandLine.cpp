@@ -269,6 +269,7 @@ std::optional<CommandLine> ParseCommandLine(std::vector<std::string> const& word
     AddFileOptions(app, line);
     tool::AddMeshOptions(app, line.settings.mesh);
     tool::AddShadingOptions(app, line.settings.shading);
+    tool::AddTessellationOptions(app, line.settings.tessellation);
     AddViewOptions(app, line, given);
     AddMotionOptions(app, given);
     tool::AddRunOptions(app, line.settings.run, "float, for files that the window saves double");
@@ -285,7 +286,8 @@ std::optional<CommandLine> ParseCommandLine(std::vector<std::string> const& word
         throw UsageError(std::string(error.what()) + " (see osd_shading_viewer --help)");
     }
     Resolve(given, line);
-    (void)line.settings.shading.Resolve();  // contradictions are usage errors
+    (void)line.settings.ResolveShading();  // contradictions are usage errors
+    (void)line.settings.tessellation.Resolve();
     if (!line.imageFile.empty() && !line.figuresFolder.empty())
         Refuse("--image", "and --figures exclude each other");
     if (app.count("--image") > 0 && line.imageFile.empty()) Refuse("--image", "the name is empty");

@@ -272,9 +272,12 @@ Image DrawPanel(Panel const& panel, glm::ivec2 size, PictureMaker& maker, SceneB
     if (panel.sharpness) {
         std::fill(model->creaseSharpness.begin(), model->creaseSharpness.end(), *panel.sharpness);
     }
-    SceneRequest const request{
-        model, panel.model, panel.mesh.Rules(*model), panel.options, panel.view.Shows(NormalChoice::Subdivided),
-        {}};
+    SceneRequest request;
+    request.model = model;
+    request.file = panel.model;
+    request.rules = panel.mesh.Rules(*model);
+    request.options = panel.options;
+    request.allSubdivided = panel.view.Shows(NormalChoice::Subdivided);
     std::shared_ptr<Scene const> const scene = builder.Build(request, [](double) { return true; });
 
     CameraChoice camera = panel.camera;

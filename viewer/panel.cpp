@@ -17,6 +17,7 @@ namespace osd_shading::viewer {
 namespace {
 
 constexpr float kWidth = 300;
+constexpr int kMostSegments = 64;        // of an edge; the command line has more
 constexpr double kProgressDelay = 0.15;  // seconds; shorter work needs no bar
 
 /// A list of the words of `names`; true when another is chosen.
@@ -89,11 +90,62 @@ bool DrawMesh(Workbench& bench) {
     return hasChanged;
 }
 
+// A uniform level or triangles of the limit surface, and how fine those are.
+bool DrawTessellation(tool::TessellationChoice& given) {
+    static constexpr std::array<std::pair<char const*, std::optional<TessellationKind>>, 4> kKinds = {
+        {{"to a level", std::nullopt},
+         {"evenly", TessellationKind::Uniform},
+         {"by curvature", TessellationKind::Curvature},
+         {"by size on screen", TessellationKind::Screen}}};
+    auto const chosen =
+        std::find_if(kKinds.begin(), kKinds.end(), [&](auto const& kind) { return kind.second == given.kind; });
+    bool hasChanged = false;
+    if (ImGui::BeginCombo("cut", chosen->first)) {
+        for (auto const& [name, kind] : kKinds) {
+            if (!ImGui::Selectable(name, kind == given.kind) || kind == given.kind) continue;
+            given = {};
+            given.kind = kind;
+            if (kind == TessellationKind::Uniform) given.rate = TessellationOptions{}.rate;
+            hasChanged = true;
+        }
+        ImGui::EndCombo();
+    }
+    if (!given.kind) return hasChanged;
+    TessellationOptions const options = *given.Resolve();
+    auto const slide = [&](char const* label, double shown, float low, float high, std::optional<double>& value) {
+        auto number = static_cast<float>(shown);
+        if (!ImGui::SliderFloat(label, &number, low, high, "%.3g", ImGuiSliderFlags_Logarithmic)) return;
+        value = static_cast<double>(std::clamp(number, low, high));
+        hasChanged = true;
+    };
+    switch (options.kind) {
+        case TessellationKind::Uniform: {
+            int rate = options.rate;
+            if (ImGui::SliderInt("segments", &rate, 1, kMostSegments)) {
+                given.rate = std::clamp(rate, 1, kMostSegments);
+                hasChanged = true;
+            }
+            break;
+        }
+        case TessellationKind::Curvature:
+            slide("degrees", options.maxAngle, 1, 90, given.maxAngle);
+            break;
+        case TessellationKind::Screen:
+            slide("pixels", options.maxPixels, 1, 100, given.maxPixels);
+            hasChanged |= ImGui::Button("Cut for this view");
+            break;
+    }
+    return hasChanged;
+}
+
 bool DrawMethod(Workbench& bench) {
     tool::ShadingChoice& given = bench.settings.shading;
-    ShadingOptions const options = given.Resolve();
+    ShadingOptions options = bench.settings.ResolveShading();
+    if (options.level == kDefaultSurfaceLevel) {
+        options.level = bench.CurrentScene() ? bench.CurrentScene()->options.level : ShadingOptions{}.level;
+    }
     int level = options.level;
-    bool hasChanged = false;
+    bool hasChanged = DrawTessellation(bench.settings.tessellation);
     if (ImGui::SliderInt("level", &level, 0, kMaxViewerLevel)) {
         SetLevel(given, level);
         hasChanged = true;

@@ -11,8 +11,8 @@
 
 #include "memory.h"
 #include "modelInput.h"
-#include "osd_shading/io/errors.h"
 #include "osd_shading/subdivisionShading.h"
+#include "requestShading.h"
 #include "sceneFields.h"
 #include "surfaceTopology.h"
 
@@ -25,17 +25,6 @@ using Clock = std::chrono::steady_clock;
 template <typename Real>
 glm::vec3 ToGlm(Vec3<Real> const& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-// The middle of the model's box. Single precision shows a model anywhere as well as at the origin.
-glm::dvec3 OriginOf(io::Model const& model) {
-    glm::dvec3 low(0), high(0);
-    for (std::size_t i = 0; i < model.positions.size(); i += 3) {
-        glm::dvec3 const p(model.positions[i], model.positions[i + 1], model.positions[i + 2]);
-        low = i == 0 ? p : glm::min(low, p);
-        high = i == 0 ? p : glm::max(high, p);
-    }
-    return low + (high - low) / 2.0;
 }
 
 std::vector<glm::dvec3> PointsOf(io::Model const& model, glm::dvec3 const& origin) {
@@ -82,18 +71,10 @@ std::vector<SurfaceVertex> VerticesOf(ShadingResult<Real> const& result) {
 }
 
 Sphere BoundsOf(std::vector<SurfaceVertex> const& vertices) {
-    if (vertices.empty()) return {};
-    glm::vec3 low = vertices[0].position, high = low;
-    for (SurfaceVertex const& vertex : vertices) {
-        low = glm::min(low, vertex.position);
-        high = glm::max(high, vertex.position);
-    }
-    Sphere sphere{(low + high) / 2.0F, 0};
-    for (SurfaceVertex const& vertex : vertices) {
-        sphere.radius = std::max(sphere.radius, glm::distance(vertex.position, sphere.center));
-    }
-    if (!(sphere.radius > 0)) sphere.radius = 1;  // all in one point
-    return sphere;
+    std::vector<glm::vec3> points;
+    points.reserve(vertices.size());
+    for (SurfaceVertex const& vertex : vertices) points.push_back(vertex.position);
+    return SphereAround(points);
 }
 
 bool IsSame(SubdivisionRules const& a, SubdivisionRules const& b) {
@@ -101,18 +82,8 @@ bool IsSame(SubdivisionRules const& a, SubdivisionRules const& b) {
            a.creasing == b.creasing && a.triangles == b.triangles;
 }
 
-template <typename Real>
-ShadingResult<Real> Shade(SceneRequest const& request, ShadingInput<Real> const& input,
-                          ShadingOptions const& options) {
-    try {
-        return ShadeSubdivision(request.model->Mesh(request.rules), input, options);
-    } catch (InvalidControlMesh const& error) {
-        throw io::ParseError(request.file, 0, error.what());  // the library knows no files
-    }
-}
-
 bool HasTables(SceneRequest const& request) {
-    return request.options.subdividedNormals.averaging == NormalAveraging::Linear &&
+    return !request.tessellation && request.options.subdividedNormals.averaging == NormalAveraging::Linear &&
            request.options.startNormals.kind != StartNormalKind::User &&
            request.precision == tool::Precision::Float;
 }
@@ -175,18 +146,20 @@ std::shared_ptr<Scene> SceneBuilder::shade(SceneRequest const& request, PointVie
     run.input.positions = points;
     run.input.faceVaryingData.clear();
 
-    // Shade, a second time with weight 1 where N_S is wanted everywhere.
-    bool const needsSecond = request.allSubdivided && request.options.weights.scheme != WeightScheme::One;
-    ShadingResult<Real> result = Shade(request, run.input, WithExecution(request.options, [&](double share) {
-                                           return progress(needsSecond ? share / 2 : share);
-                                       }));
+    // Shade, a second time with weight 1 where N_S is wanted everywhere; other normals would be cut otherwise.
+    bool const needsSecond =
+        request.allSubdivided && !request.tessellation && request.options.weights.scheme != WeightScheme::One;
+    ShadingResult<Real> result = ShadeRequest(
+        request, run.input,
+        WithExecution(request.options, [&](double share) { return progress(needsSecond ? share / 2 : share); }),
+        glm::dvec3(0));
     scene->vertices = VerticesOf(result);
-    scene->hasAllSubdivided = request.allSubdivided || result.options.weights.scheme == WeightScheme::One;
+    scene->hasAllSubdivided = needsSecond || result.options.weights.scheme == WeightScheme::One;
     if (needsSecond) {
         ShadingOptions everywhere =
             WithExecution(request.options, [&](double share) { return progress(0.5 + share / 2); });
         everywhere.weights.scheme = WeightScheme::One;
-        ShadingResult<Real> const second = Shade(request, run.input, everywhere);
+        ShadingResult<Real> const second = ShadeRequest(request, run.input, everywhere, glm::dvec3(0));
         for (std::size_t i = 0; i < scene->vertices.size(); ++i) {
             scene->vertices[i].subdividedNormal = ToGlm(second.subdividedNormals[i]);
         }
@@ -196,13 +169,13 @@ std::shared_ptr<Scene> SceneBuilder::shade(SceneRequest const& request, PointVie
     scene->report = std::move(result.report);
 
     // Collect what is drawn; the connectivity stays while options of the shading alone change.
-    bool const keepsTopology =
-        _topology && _model == request.model && IsSame(_rules, request.rules) && _level == scene->options.level;
+    bool const keepsTopology = !request.tessellation && _topology && _model == request.model &&
+                               IsSame(_rules, request.rules) && _level == scene->options.level;
     if (!keepsTopology) {
         _topology = MakeSurfaceTopology(std::move(result), model.NumVertices());
         _model = request.model;
         _rules = request.rules;
-        _level = scene->options.level;
+        _level = request.tessellation ? -1 : scene->options.level;
     }
     scene->topology = _topology;
     return scene;

@@ -10,7 +10,7 @@
 #include "osd_shading/io/objWriter.h"
 #include "osd_shading/io/plyWriter.h"
 #include "osd_shading/io/usdWriter.h"
-#include "osd_shading/subdivisionShading.h"
+#include "requestShading.h"
 
 namespace osd_shading::viewer {
 
@@ -24,7 +24,7 @@ void SaveResult(SceneRequest const& request, std::string const& path, tool::Outp
     io::Model const& model = *request.model;
     tool::RequireTriangles(request.file, request.rules.scheme, model);
     auto const run = tool::MakeInput<Real>(request.file, model, request.options.startNormals.kind);
-    ShadingResult<Real> const result = ShadeSubdivision(model.Mesh(request.rules), run.input, request.options);
+    ShadingResult<Real> const result = ShadeRequest(request, run.input, request.options, OriginOf(model));
     switch (format) {
         case tool::OutputFormat::None:
             break;

@@ -64,6 +64,13 @@ void AddMethod(Settings const& settings, SettingsWriter& text) {
     text.AddNumber("spherical-steps", shading.sphericalSteps);
     text.AddChoice("limit-normals", shading.limitNormals, tool::kLimitNormalNames);
     text.AddChoice("positions", shading.positions, tool::kPositionNames);
+    if (settings.tessellation.rate) {
+        text.AddNumber("tessellate", settings.tessellation.rate);
+    } else {
+        text.AddChoice("tessellate", settings.tessellation.kind, tool::kTessellationNames);
+    }
+    text.AddNumber("max-angle", settings.tessellation.maxAngle);
+    text.AddNumber("max-pixels", settings.tessellation.maxPixels);
     text.AddChoice("precision", settings.run.precision, tool::kPrecisionNames);
     text.AddNumber("threads", settings.run.threads);
     text.AddNumber("memory-limit", settings.run.memoryLimit);

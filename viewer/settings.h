@@ -7,6 +7,7 @@
 #include "camera.h"
 #include "deformation.h"
 #include "methodOptions.h"
+#include "tessellationOptions.h"
 #include "viewOptions.h"
 
 namespace osd_shading::viewer {
@@ -16,11 +17,19 @@ struct Settings {
     std::string modelFile;  ///< or the name of a built-in model
     tool::MeshOptions mesh;
     tool::ShadingChoice shading;
+    tool::TessellationChoice tessellation;
     ViewOptions view;
     CameraChoice camera;
     Deformation deformation;
     tool::RunChoice run;         ///< precision unset: float for what is shown, double for what is saved
     int screenshotMultiple = 1;  ///< size of screenshots, times the window's
+
+    /// The method's options; the level is left to the library where it cuts triangles and none is given.
+    ///
+    /// ERRORS: UsageError where options contradict each other.
+    ShadingOptions ResolveShading() const {
+        return shading.Resolve(tessellation.kind ? kDefaultSurfaceLevel : ShadingOptions{}.level);
+    }
 };
 
 inline constexpr int kMaxScreenshotMultiple = 8;

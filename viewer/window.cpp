@@ -302,6 +302,7 @@ private:
     }
 
     void frameScene() {
+        _bench.screen = ViewportsOf(_bench.settings.view, _layout.SceneSize())[0].size;
         Scene const& scene = *_bench.CurrentScene();
         if (_bench.IsNewModel()) {
             // The first model is seen as the command line says, later ones from where one looks.

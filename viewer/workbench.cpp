@@ -53,7 +53,7 @@ void Workbench::attempt(Action const& action) {
 }
 
 void Workbench::submit(std::shared_ptr<Document> const& document) {
-    SceneRequest request = MakeRequest(settings, document->Model(), document->Name());
+    SceneRequest request = MakeRequest(settings, document->Model(), document->Name(), screen);
     bool const allSubdivided = request.allSubdivided;
     std::int64_t const number = _worker.RequestScene(std::move(request));
     _requests.push_back({number, document, settings, allSubdivided});
@@ -137,7 +137,7 @@ void Workbench::SaveResult(std::string const& file) {
             _message = file + ": the name of a result ends in .ply, .obj or .usda";
             return;
         }
-        SceneRequest request = MakeRequest(settings, _document->Model(), _document->Name());
+        SceneRequest request = MakeRequest(settings, _document->Model(), _document->Name(), screen);
         request.precision = settings.run.precision.value_or(tool::Precision::Double);
         _worker.RequestFile(std::move(request), file, format);
         _message = "writing " + file;
@@ -189,6 +189,7 @@ void Workbench::take(WorkResult const& result) {
     _message = result.isAbandoned ? "abandoned" : result.error;
     settings.mesh = _shownSettings.mesh;
     settings.shading = _shownSettings.shading;
+    settings.tessellation = _shownSettings.tessellation;
 }
 
 void Workbench::dropMissing() {

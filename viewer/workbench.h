@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/glm.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ public:
 
     /// Edited by the panel and the keys; `Apply` must follow where what is computed depends on the change.
     Settings settings;
+    glm::ivec2 screen{1280, 800};  ///< pixels, where triangles are as long as is seen
     void Apply();
 
     /// Opens a model; the old one stays until the new one is shown, and where that can't be.
