@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "osd_shading/geometryCheck.h"
+#include "osd_shading/limitSurface.h"
 #include "osd_shading/primvarTable.h"
 #include "osd_shading/shadingEvaluator.h"
 #include "osd_shading/shadingStencils.h"
@@ -66,6 +67,9 @@ std::string tableWords(Arguments const& a) {
 }
 std::string stencilWords(Arguments const& a) {
     return wordsOf([&] { BuildShadingStencils(a.mesh, a.options); });
+}
+std::string surfaceWords(Arguments const& a) {
+    return wordsOf([&] { LimitSurface<double>(a.mesh, a.input, a.options).Evaluate(0, 0, 0); });
 }
 std::string primvarWords(Arguments const& a) {
     return wordsOf([&] { BuildPrimvarTable<float>(a.mesh, {}, a.options); });
@@ -177,6 +181,7 @@ TEST(HostileApi, MeshesThatCannotBeAreRefusedInTheSameWordsAtEveryDoor) {
         EXPECT_EQ(oneShotWords(a), c.expected) << c.name;
         EXPECT_EQ(tableWords(a), c.expected) << c.name;
         EXPECT_EQ(stencilWords(a), c.expected) << c.name;
+        EXPECT_EQ(surfaceWords(a), c.expected) << c.name;
         EXPECT_EQ(primvarWords(a), c.expected) << c.name;
     }
 }
@@ -266,6 +271,10 @@ TEST(HostileApi, OptionsThatCannotBeAreRefusedInTheSameWordsAtEveryDoor) {
         EXPECT_EQ(oneShotWords(a), c.expected) << c.name;
         EXPECT_EQ(tableWords(a), c.expected) << c.name;
         EXPECT_EQ(stencilWords(a), c.expected) << c.name;
+        // There level -1 is left to the library.
+        if (a.options.level != kDefaultSurfaceLevel) {
+            EXPECT_EQ(surfaceWords(a), c.expected) << c.name;
+        }
         auto const refiner = shapes::MakeRefiner(a.cube, 0);
         EXPECT_EQ(wordsOf([&] { ShadeSubdivision(*refiner, a.input, a.options); }), c.expected) << c.name;
         EXPECT_EQ(wordsOf([&] { ShadingTable(*refiner, a.options); }), c.expected) << c.name;
@@ -376,6 +385,10 @@ TEST(HostileApi, NumbersThatCannotBeAreRefusedAtTheirPlace) {
         Arguments a;
         c.change(a);
         EXPECT_EQ(oneShotWords(a), c.expected) << c.name;
+        // A surface carries no data along.
+        bool const isOfData =
+            c.expected.find("Data") != std::string::npos || std::string(c.name) == "no vertex data";
+        EXPECT_EQ(surfaceWords(a), isOfData ? "no error" : c.expected) << c.name;
     }
 }
 

@@ -16,6 +16,7 @@
 #include "osd_shading/io/objWriter.h"
 #include "osd_shading/io/plyWriter.h"
 #include "osd_shading/io/usdWriter.h"
+#include "osd_shading/limitSurface.h"
 #include "osd_shading/primvarTable.h"
 #include "osd_shading/shadingEvaluator.h"
 #include "osd_shading/shadingStencils.h"
@@ -53,6 +54,7 @@ TEST(HostileCalls, RefinersThatCannotBeShadedAreRefusedInTheSameWordsAtEveryDoor
         EXPECT_EQ(wordsOf([&] { ShadeSubdivision(refiner, input, PaperPreset(1)); }), expected);
         EXPECT_EQ(wordsOf([&] { ShadingTable(refiner, PaperPreset(1)); }), expected);
         EXPECT_EQ(wordsOf([&] { BuildShadingStencils(refiner, PaperPreset(1)); }), expected);
+        EXPECT_EQ(wordsOf([&] { LimitSurface<double>(refiner, input, PaperPreset(1)); }), expected);
         EXPECT_EQ(wordsOf([&] { BuildPrimvarTable<double>(refiner, PaperPreset(1)); }), expected);
         EXPECT_EQ(wordsOf([&] { CheckGeometry(refiner, input.positions, result); }), expected);
     };

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "fuzzTargets.h"
+#include "osd_shading/limitSurface.h"
 #include "osd_shading/shadingEvaluator.h"
 #include "osd_shading/subdivisionShading.h"
+#include "tests/faceLocations.h"
 
 namespace fuzz {
 
@@ -129,19 +131,28 @@ ShadingOptions chooseOptions(Choices& choices, FuzzedMesh& mesh) {
     return options;
 }
 
+/// The mesh with its numbers in `Real`, moved a little.
+template <typename Real>
+struct FuzzedInput {
+    std::vector<Real> positions, normals;
+    ShadingInput<Real> view;
+
+    explicit FuzzedInput(FuzzedMesh const& mesh, double moved = 0, double way = 0)
+        : positions(mesh.positions.begin(), mesh.positions.end()),
+          normals(mesh.normals.begin(), mesh.normals.end()) {
+        // Another direction and length for each coordinate.
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            positions[i] += static_cast<Real>(moved * std::sin(way + (2.7 + way) * static_cast<double>(i)));
+        }
+        view.positions = {positions.data(), positions.size() / 3};
+        PointView<Real> const given(normals.data(), normals.size() / 3);
+        (normals.size() == positions.size() ? view.vertexNormals : view.faceVaryingNormals) = given;
+    }
+};
+
 template <typename Real>
 ShadingResult<Real> shade(FuzzedMesh const& mesh, ShadingOptions const& options, double moved = 0, double way = 0) {
-    std::vector<Real> positions(mesh.positions.begin(), mesh.positions.end());
-    std::vector<Real> const normals(mesh.normals.begin(), mesh.normals.end());
-    // Another direction and length for each coordinate.
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        positions[i] += static_cast<Real>(moved * std::sin(way + (2.7 + way) * static_cast<double>(i)));
-    }
-    ShadingInput<Real> input;
-    input.positions = {positions.data(), positions.size() / 3};
-    PointView<Real> const view(normals.data(), normals.size() / 3);
-    (normals.size() == positions.size() ? input.vertexNormals : input.faceVaryingNormals) = view;
-    return ShadeSubdivision(mesh.View(), input, options);
+    return ShadeSubdivision(mesh.View(), FuzzedInput<Real>(mesh, moved, way).view, options);
 }
 
 template <typename Real>
@@ -163,15 +174,99 @@ void requirePromises(ShadingResult<Real> const& result) {
     requireNormals(result.blendedNormals, "blended normals are unit or zero");
 }
 
+void requirePromises(SurfacePoint<double> const& point) {
+    for (Vec3<double> const& v : {point.position, point.du, point.dv, point.duu, point.duv, point.dvv}) {
+        Require(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z), "derivatives are finite");
+    }
+    Require(point.blendWeight >= 0 && point.blendWeight <= 1, "weights of the surface are in [0, 1]");
+    requireNormals<double>({point.limitNormal, point.subdividedNormal, point.blendedNormal},
+                           "normals of the surface are unit or zero");
+}
+
+bool IsZero(Vec3<double> const& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
 template <typename A, typename B>
 double distance(Vec3<A> const& a, Vec3<B> const& b) {
     return std::hypot(double(a.x) - double(b.x), double(a.y) - double(b.y), double(a.z) - double(b.z));
 }
 
+/// The results of points 1e-6 away, made when asked for: their normals tell how much those here may change by
+/// rounding.
+class Neighbours {
+public:
+    Neighbours(FuzzedMesh const& mesh, ShadingOptions const& options, ShadingResult<double> const& result)
+        : _mesh(mesh), _options(options), _result(result) {}
+
+    bool IsSteady(std::vector<Vec3<double>> ShadingResult<double>::*normals, std::size_t value) {
+        constexpr double kSteady = 1e-3;
+        for (double const way : {1.0, 2.5, 4.1}) {
+            if (_moved.size() < 3) _moved.push_back(shade<double>(_mesh, _options, 1e-6, way));
+        }
+        return std::all_of(_moved.begin(), _moved.end(), [&](ShadingResult<double> const& other) {
+            return distance((_result.*normals)[value], (other.*normals)[value]) < kSteady;
+        });
+    }
+    /// The length of N_B before it is normalised: where it all but vanishes the last digit of b decides.
+    double BlendLength(std::size_t value) const {
+        double const power = std::pow(_result.blendWeights[value], _options.weights.exponent);
+        Vec3<double> const &n = _result.limitNormals[value], &s = _result.subdividedNormals[value];
+        return std::hypot((1 - power) * n.x + power * s.x, (1 - power) * n.y + power * s.y,
+                          (1 - power) * n.z + power * s.z);
+    }
+
+private:
+    FuzzedMesh const& _mesh;
+    ShadingOptions const& _options;
+    ShadingResult<double> const& _result;
+    std::vector<ShadingResult<double>> _moved;
+};
+
+/// The limit surface at the points of the result.
+void requireSameSurface(FuzzedMesh const& mesh, ShadingOptions const& options, ShadingResult<double> const& result,
+                        Neighbours& neighbours) {
+    FuzzedInput<double> const input(mesh);
+    LimitSurface<double> const surface(mesh.View(), input.view, options);
+    RefinedTopology const topology(mesh.View(), options.level);
+    std::vector<tests::Location> const locations = tests::LocationsOf(topology);
+    auto const size = index(result.faceSize);
+    for (std::size_t i = 0; i < result.faceValues.size(); ++i) {
+        std::size_t const face = i / size, value = index(result.faceValues[i]),
+                          vertex = index(result.valueVertices[value]);
+        std::size_t const levelFace = result.refinerFaces.empty() ? face : index(result.refinerFaces[face]);
+        tests::Location const& at = locations[levelFace * size + i % size];
+        SurfacePoint<double> const point = surface.Evaluate(at.face, at.u, at.v);
+        requirePromises(point);
+        Require(distance(point.position, result.positions[vertex]) < 1e-9,
+                "the surface has the result's positions");
+        Require(std::fabs(point.blendWeight - result.blendWeights[value]) < 1e-9,
+                "the surface has the result's weights");
+        auto const compare = [&](Vec3<double> const& normal, auto normals, char const* promise) {
+            Vec3<double> const& want = (result.*normals)[value];
+            if (distance(normal, want) < 1e-3) return;
+            // Where no tangents tell, it takes the faces of another level.
+            bool const isDegenerate = result.report.fallbackNormals + result.report.averagedNormals > 0;
+            if (isDegenerate || IsZero(normal) || IsZero(want)) return;
+            Require(!neighbours.IsSteady(normals, value), promise);
+        };
+        using Result = ShadingResult<double>;
+        compare(point.limitNormal, &Result::limitNormals, "the surface has the result's limit normals");
+        if (result.blendWeights[value] < 1e-9) continue;
+        compare(point.subdividedNormal, &Result::subdividedNormals, "the surface has the result's N_S");
+        if (neighbours.BlendLength(value) > 0.01) {
+            compare(point.blendedNormal, &Result::blendedNormals, "the surface has the result's N_B");
+        }
+    }
+    // Anywhere, holes too.
+    for (int face = 0; face < surface.NumFaces(); ++face) {
+        for (double const t : {0.0, 1e-7, 0.3, 0.77, 1.0}) {
+            requirePromises(surface.Evaluate(face, t, 0.6 * t * t, SurfaceDerivatives::Second));
+        }
+    }
+}
+
 /// A frame of a table beside the result.
-void requireSameFrame(FuzzedMesh const& mesh, ShadingOptions const& options, ShadingResult<double> const& result) {
-    // Of points 1e-6 away, made when asked for: their normals tell how much those here may change by rounding.
-    std::vector<ShadingResult<double>> moved;
+void requireSameFrame(FuzzedMesh const& mesh, ShadingOptions const& options, ShadingResult<double> const& result,
+                      Neighbours& neighbours) {
     ShadingTable const table(mesh.View(), options);
     std::size_t const count = index(table.NumValues());
     Require(count == result.valueVertices.size(), "a table has the values of the result");
@@ -202,28 +297,16 @@ void requireSameFrame(FuzzedMesh const& mesh, ShadingOptions const& options, Sha
             double const length = std::hypot(double(normal.x), double(normal.y), double(normal.z));
             Require(length == 0 || std::fabs(length - 1) < 1e-5, "a frame's normals are unit or zero");
             // Where faces leave no N_L, N_S stands in; tables hold that only where b is not 0.
-            if (length == 0 && result.blendWeights[value] == 0 && result.report.fallbackNormals > 0) return;
-            constexpr double kSteady = 1e-3;
-            Vec3<double> const& want = (result.*normals)[value];
-            if (distance(normal, want) < 0.05) return;
-            for (double const way : {1.0, 2.5, 4.1}) {
-                if (moved.size() < 3) moved.push_back(shade<double>(mesh, options, 1e-6, way));
-            }
-            bool const isSteady = std::all_of(moved.begin(), moved.end(), [&](ShadingResult<double> const& other) {
-                return distance(want, (other.*normals)[value]) < kSteady;
-            });
-            Require(!isSteady, promise);
+            bool const hasOther = result.blendWeights[value] > 0 && !IsZero(result.subdividedNormals[value]);
+            // And of slivers back to back either may be left with what rounding makes of their sum.
+            if (length == 0 && !hasOther && result.report.fallbackNormals > 0) return;
+            if (distance(normal, (result.*normals)[value]) < 0.05) return;
+            Require(!neighbours.IsSteady(normals, value), promise);
         };
         using Result = ShadingResult<double>;
         compare(at + 6, &Result::limitNormals, "limit normals agree");
         compare(at + 9, &Result::subdividedNormals, "subdivided normals agree");
-        // Where its sum all but vanishes the last digit of b decides.
-        double const power = std::pow(result.blendWeights[value], options.weights.exponent);
-        Vec3<double> const& n = result.limitNormals[value];
-        Vec3<double> const& s = result.subdividedNormals[value];
-        double const sum = std::hypot((1 - power) * n.x + power * s.x, (1 - power) * n.y + power * s.y,
-                                      (1 - power) * n.z + power * s.z);
-        if (sum > 0.01) {
+        if (neighbours.BlendLength(value) > 0.01) {
             compare(at + 3, &Result::blendedNormals, "blended normals agree");
         }
     }
@@ -257,8 +340,13 @@ void FuzzMesh(std::uint8_t const* data, std::size_t size) {
     requirePromises(result);
     requirePromises(shade<float>(mesh, options));
     if (!isLinear) return;
+    Neighbours neighbours(mesh, options, result);
+    bool const hasSurface =
+        options.limits.positions == PositionKind::Limit && options.limits.normals != LimitNormalKind::FaceAverage &&
+        options.weights.scheme != WeightScheme::InverseLimit && options.weights.scheme != WeightScheme::Bilinear;
+    if (hasSurface) requireSameSurface(mesh, options, result, neighbours);
     try {
-        requireSameFrame(mesh, options, result);
+        requireSameFrame(mesh, options, result, neighbours);
     } catch (InvalidControlMesh const& error) {
         // The one kind of mesh that tables alone refuse.
         Require(std::string(error.what()).find("share two edges") != std::string::npos, "a table takes the mesh");
