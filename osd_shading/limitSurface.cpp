@@ -94,6 +94,19 @@ struct LimitSurface<Real>::Topology {
         for (int f = 0; f < base.GetNumFaces(); ++f) {
             cornerOffsets.push_back(cornerOffsets.back() + index(base.GetFaceVertices(f).size()));
         }
+        CheckBorders();
+    }
+
+    void CheckBorders() const {
+        surface::OneBorder const found = surface::FindOneBorder(base);
+        if (found.vertex < 0) return;
+        Far::ConstIndexArray const ends = base.GetEdgeVertices(found.edge);
+        throw InvalidControlMesh(
+            "vertex " + std::to_string(found.vertex) +
+            ": faces round it begin and end at the same non-manifold edge (vertices " + std::to_string(ends[0]) +
+            ", " + std::to_string(ends[1]) +
+            "), and its surface goes on along another one; a limit surface can't follow both, use "
+            "ShadeSubdivision");
     }
 
     std::shared_ptr<surface::FaceClass const> FindClass(tables::TileRing const& cutOut) const {

@@ -82,7 +82,8 @@ struct LimitSurfaceStats {
 /// The level L is where weights stop being seeded, and what is still sharp there is infinitely sharp. Left to the
 /// library (the default) it is the largest of 1, the start levels, and the largest finite sharpness rounded up, but
 /// at most 6. Options that only a mesh has are refused: other than limit positions and linear averaging, N_L by
-/// face averages, and the schemes InverseLimit and Bilinear.
+/// face averages, and the schemes InverseLimit and Bilinear. So is, as InvalidControlMesh, a mesh with a vertex of
+/// two non-manifold edges where a region begins and ends at one of them.
 ///
 /// A face is built when it is first evaluated, from the faces up to two (with start levels 0, by Chaikin's rule or
 /// ExtraordinaryOnly, up to four) rings round it; equal neighbourhoods share what does not depend on positions.

@@ -379,6 +379,24 @@ TEST(LimitSurface, ChoosesTheLevelAtWhichAllCreasesAreReleased) {
     EXPECT_EQ(Surface<double>(shapes::Cube().Crease(0, 1, 9.5F), SurfacePreset()).limit.Options().level, 6);
 }
 
+TEST(LimitSurface, RefusesAVertexWhoseRegionHasOneBorderOfItsTwo) {
+    // At vertex 1 two faces meet that both end at edge (1, 3) of six faces; the other sharp edge there is (0, 1).
+    Shape shape = shapes::Tetrahedron();
+    shape.positions = {0, 0, 0, 2, 0, 5.875, 0, 0, 2, 5.3125, 5.3125, 5.3125};
+    shape.rules.boundary = Sdc::Options::VTX_BOUNDARY_NONE;
+    shape.SetFaces({{0, 3, 1, 2}, {3, 1, 0}, {2, 1, 3}, {3, 1, 2}, {1, 3, 0}, {3, 0, 2, 1}});
+    ShadingOptions const options = SurfacePreset();
+    EXPECT_NE(ErrorOf<InvalidControlMesh>([&] {
+                  Surface<double> const surface(shape, options);
+              }).find("begin and end at the same non-manifold edge (vertices "),
+              std::string::npos);
+    // Fins and books of faces have none such.
+    for (Shape const& other : AllShapes()) {
+        SCOPED_TRACE(other.name);
+        EXPECT_NO_THROW(Surface<double>(other, options));
+    }
+}
+
 TEST(LimitSurface, RefusesInWordsWhatOnlyAMeshHas) {
     Shape const cube = shapes::Cube();
     auto const wordsOf = [&](auto const& change) {

@@ -116,6 +116,42 @@ RegularPatch trianglePatch(RegionLevels& levels, int level, int face) {
 
 }  // namespace
 
+OneBorder FindOneBorder(Far::TopologyLevel const& level) {
+    auto const staysSharp = [&](int edge) {
+        return level.GetEdgeSharpness(edge) >= Sdc::Crease::SHARPNESS_INFINITE;
+    };
+    for (int v = 0; v < level.GetNumVertices(); ++v) {
+        bool const isCorner = level.GetVertexSharpness(v) >= Sdc::Crease::SHARPNESS_INFINITE;
+        if (isCorner || !level.IsVertexNonManifold(v)) continue;
+        Far::ConstIndexArray const faces = level.GetVertexFaces(v), edges = level.GetVertexEdges(v);
+        if (std::count_if(edges.begin(), edges.end(), staysSharp) != 2) continue;
+        Far::ConstLocalIndexArray const corners = level.GetVertexFaceLocalIndices(v);
+        auto const sideOf = [&](int i, int side) {
+            Far::ConstIndexArray const faceEdges = level.GetFaceEdges(faces[i]);
+            return faceEdges[(corners[i] + (side == 0 ? 0 : faceEdges.size() - 1)) % faceEdges.size()];
+        };
+        // From each side of a face on an edge that stays, across the others to the next that does.
+        for (int i = 0; i < faces.size(); ++i) {
+            for (int side = 0; side < 2; ++side) {
+                int const begin = sideOf(i, side);
+                if (!staysSharp(begin)) continue;
+                int at = i, edge = sideOf(i, 1 - side);
+                for (int step = 0; step < faces.size() && !staysSharp(edge); ++step) {
+                    int next = -1;
+                    for (int j = 0; j < faces.size() && next < 0; ++j) {
+                        if (j != at && (sideOf(j, 0) == edge || sideOf(j, 1) == edge)) next = j;
+                    }
+                    if (next < 0) break;
+                    edge = sideOf(next, 0) == edge ? sideOf(next, 1) : sideOf(next, 0);
+                    at = next;
+                }
+                if (edge == begin && at != i) return {v, edge};
+            }
+        }
+    }
+    return {};
+}
+
 SubdivisionRules RulesOfRings(Sdc::SchemeType scheme) {
     SubdivisionRules rules;
     rules.scheme = scheme;
