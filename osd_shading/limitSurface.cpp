@@ -29,8 +29,6 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// The most neighbourhoods that are kept for other faces: some 100 kilobytes each.
 constexpr std::size_t kMostKept = 1024;
-/// The highest level that is taken where it is left to the library.
-constexpr int kMostDefaultLevel = 6;
 
 int findDefaultLevel(Far::TopologyLevel const& base, ShadingOptions const& options) {
     float sharpest = 0;
@@ -39,7 +37,7 @@ int findDefaultLevel(Far::TopologyLevel const& base, ShadingOptions const& optio
     };
     for (int e = 0; e < base.GetNumEdges(); ++e) add(base.GetEdgeSharpness(e));
     for (int v = 0; v < base.GetNumVertices(); ++v) add(base.GetVertexSharpness(v));
-    int const released = std::min(static_cast<int>(std::ceil(sharpest)), kMostDefaultLevel);
+    int const released = std::min(static_cast<int>(std::ceil(sharpest)), kMaxSurfaceLevel);
     return std::max({1, options.startNormals.level, options.weights.level, released});
 }
 

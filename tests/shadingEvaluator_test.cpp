@@ -678,7 +678,8 @@ TEST(ShadingEvaluator, FallsBackAsTheOneShotPathWhereFacesCollapse) {
         EXPECT_LE(numNoise, static_cast<std::int64_t>(values.size() / 5)) << c.Name();
         Agreement const agreement = Compare(frame, values, reference);
         EXPECT_LE(agreement.position, 2e-7) << c.Name();
-        EXPECT_LE(agreement.normal, 1e-5) << c.Name() << ": " << agreement.worst;
+        // Of tangents that only just are no doubtful ones float leaves 64 times its rounding, of several terms.
+        EXPECT_LE(agreement.normal, 2e-5) << c.Name() << ": " << agreement.worst;
         // A table computes the start normals that it needs, not all.
         EXPECT_LE(frame.report.zeroStartNormals, reference.result.report.zeroStartNormals) << c.Name();
         if (c.options.limits.normals == LimitNormalKind::Limit) {

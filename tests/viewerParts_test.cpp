@@ -14,6 +14,7 @@
 
 #include "osd_shading/io/sharpReader.h"
 #include "tests/ioFiles.h"
+#include "tests/sampleSize.h"
 #include "viewer/builtInModels.h"
 #include "viewer/commandLine.h"
 #include "viewer/edgeChains.h"
@@ -763,7 +764,7 @@ std::size_t ResidentBytes() {
 }
 
 TEST_F(WorkbenchTest, FiftyModelsInARowDoNotGrowTheProcess) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(OSD_SHADING_UNDER_SANITIZER)
     GTEST_SKIP() << "the sanitizer keeps freed memory";
 #endif
     OffscreenContext const context;

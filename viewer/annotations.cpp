@@ -23,6 +23,15 @@ std::string Format(char const* format, Arguments... arguments) {
     return text.data();
 }
 
+// Text on a ground of its own, so that it can be read over the surface.
+void AddGroundedText(ImDrawList& list, ViewOptions const& view, float scale, ImVec2 at, std::string const& text) {
+    ImVec2 const extent = ImGui::CalcTextSize(text.c_str());
+    float const margin = 3 * scale;
+    list.AddRectFilled({at.x - margin, at.y - margin / 2}, {at.x + extent.x + margin, at.y + extent.y + margin / 2},
+                       ToImGui(BackgroundColor(view.background), 0.75F));
+    list.AddText(at, ToImGui(TextColor(view.background)), text.c_str());
+}
+
 /// Writes legends from the lower left corner upwards.
 class Legend {
 public:
@@ -60,23 +69,16 @@ public:
     }
 
 private:
-    void text(ImVec2 at, std::string const& words) {
-        _list.AddText(at, ToImGui(TextColor(_view.background)), words.c_str());
-    }
+    void text(ImVec2 at, std::string const& words) { AddGroundedText(_list, _view, _scale, at, words); }
 
     ImDrawList& _list;
     ViewOptions const& _view;
     float _scale, _bottom;
 };
 
-// Text on a ground of its own, so that it can be read over the surface; `middle` is its upper middle.
+// A label whose upper middle is `middle`.
 void AddLabel(ImDrawList& list, ViewOptions const& view, float scale, ImVec2 middle, std::string const& label) {
-    ImVec2 const extent = ImGui::CalcTextSize(label.c_str());
-    float const left = middle.x - extent.x / 2, margin = 3 * scale;
-    list.AddRectFilled({left - margin, middle.y - margin / 2},
-                       {left + extent.x + margin, middle.y + extent.y + margin / 2},
-                       ToImGui(BackgroundColor(view.background), 0.75F));
-    list.AddText({left, middle.y}, ToImGui(TextColor(view.background)), label.c_str());
+    AddGroundedText(list, view, scale, {middle.x - ImGui::CalcTextSize(label.c_str()).x / 2, middle.y}, label);
 }
 
 void AddLegends(Legend& legend, ViewOptions const& view, ViewFacts const& facts) {
