@@ -20,10 +20,10 @@ using tables::TileRing;
 /// is face 0. What lies across a sharp edge, a non-manifold one too, is there only where that ends in a dart.
 TileRing FindRegionRing(RegionLevels& levels, int level, int face);
 
-/// A vertex where the two edges that stay sharp are not the borders of each of its regions: one region begins and ends
-/// at the same edge, a non-manifold one. OpenSubdiv's limit of the vertex lies along both; fields of the region
-/// follow its one edge, so that they and the points are not refined by the same rows. `edge` is that edge; -1: there
-/// is none.
+/// A vertex where the two edges that stay sharp are not the borders of each of its regions: one region begins and
+/// ends at the same edge, a non-manifold one. OpenSubdiv's limit of the vertex lies along both; fields of the
+/// region follow its one edge, so that they and the points are not refined by the same rows. `edge` is that edge;
+/// -1: there is none.
 struct OneBorder {
     int vertex = -1, edge = -1;
 };
