@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "osd_shading/backToBack.h"
+#include "osd_shading/creaseRegions.h"
 #include "osd_shading/inputChecks.h"
 #include "osd_shading/oneShotShading.h"
 #include "osd_shading/surface/cutOut.h"
@@ -93,6 +95,7 @@ struct LimitSurface<Real>::Topology {
             cornerOffsets.push_back(cornerOffsets.back() + index(base.GetFaceVertices(f).size()));
         }
         CheckBorders();
+        CheckBackToBack();
     }
 
     void CheckBorders() const {
@@ -105,6 +108,25 @@ struct LimitSurface<Real>::Topology {
             ", " + std::to_string(ends[1]) +
             "), and its surface goes on along another one; a limit surface can't follow both, use "
             "ShadeSubdivision");
+    }
+
+    /// Where a crease ends both its sides are needed, and told apart by their vertices.
+    void CheckBackToBack() const {
+        if (mesh.IsCatmark()) return;
+        for (auto const& [first, second] : FindBackToBack(base)) {
+            for (int const v : base.GetFaceVertices(first)) {
+                int numSharp = 0, numInfinite = 0;
+                for (int const edge : base.GetVertexEdges(v)) {
+                    numSharp += IsSharpEdge(base, edge);
+                    numInfinite += base.GetEdgeSharpness(edge) >= Sdc::Crease::SHARPNESS_INFINITE;
+                }
+                if (numSharp == 0 || numInfinite > 1) continue;
+                throw InvalidControlMesh("faces " + std::to_string(first) + " and " + std::to_string(second) +
+                                         " share two edges, and a crease may end at vertex " + std::to_string(v) +
+                                         " of theirs; a limit surface can't tell their sides apart, use "
+                                         "ShadeSubdivision");
+            }
+        }
     }
 
     std::shared_ptr<surface::FaceClass const> FindClass(tables::TileRing const& cutOut) const {

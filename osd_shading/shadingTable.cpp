@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "osd_shading/backToBack.h"
 #include "osd_shading/oneShotShading.h"
 #include "osd_shading/subdivisionShading.h"
 #include "osd_shading/tables/tableData.h"
@@ -42,24 +43,14 @@ void checkSize(std::int64_t numFaces, std::int64_t numFaceCorners, Sdc::SchemeTy
         static_cast<std::uint64_t>(count) * 4 * sizeof(int));
 }
 
-/// Refuses two triangles that share two edges and so all vertices. From level 1 on edges between them join the same
-/// two vertices, and are one edge where a table looks at a tile's surroundings alone, as it does from level 3 on.
+/// A table looks at a tile's surroundings alone from level 3 on.
 void checkBackToBack(RefinedTopology const& base, int level) {
     if (base.IsCatmark() || level < 3) return;
-    Far::TopologyLevel const& mesh = base.Level(0);
-    for (int f = 0; f < mesh.GetNumFaces(); ++f) {
-        int others[3] = {-1, -1, -1};
-        for (int i = 0; i < 3; ++i) {
-            Far::ConstIndexArray const faces = mesh.GetEdgeFaces(mesh.GetFaceEdges(f)[i]);
-            if (faces.size() != 2) continue;
-            others[i] = faces[0] == f ? faces[1] : faces[0];
-            if (std::count(others, others + i, others[i]) == 0) continue;
-            throw InvalidControlMesh(
-                "faces " + std::to_string(f) + " and " + std::to_string(others[i]) +
-                " share two edges, which tables of Loop subdivision hold up to level 2 only; use "
-                "ShadeSubdivision");
-        }
-    }
+    auto const pairs = FindBackToBack(base.Level(0));
+    if (pairs.empty()) return;
+    throw InvalidControlMesh("faces " + std::to_string(pairs[0].first) + " and " + std::to_string(pairs[0].second) +
+                             " share two edges, which tables of Loop subdivision hold up to level 2 only; use "
+                             "ShadeSubdivision");
 }
 
 /// `base`: level 0 alone; `options` are resolved.

@@ -91,7 +91,7 @@ inline Differences CompareWithUniform(Shape const& shape, ShadingOptions const& 
         // Fallbacks are those of the last level's mesh there, and of larger faces here; and N_S is not at hand
         // where b is zero.
         double const lengths = Length(point.du) * Length(point.dv);
-        if (!IsZero(point.du) &&
+        if (!(IsZero(point.du) && IsZero(point.dv)) &&
             Length(Cross(point.du, point.dv)) <= std::max(1e-6 * lengths, 1e-9 * size * size)) {
             continue;
         }
