@@ -29,6 +29,8 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+/// The highest level that is taken where it is left to the library: each above takes four times as long to build.
+constexpr int kMostDefaultLevel = 6;
 /// The most neighbourhoods that are kept for other faces: some 100 kilobytes each.
 constexpr std::size_t kMostKept = 1024;
 
@@ -39,7 +41,7 @@ int findDefaultLevel(Far::TopologyLevel const& base, ShadingOptions const& optio
     };
     for (int e = 0; e < base.GetNumEdges(); ++e) add(base.GetEdgeSharpness(e));
     for (int v = 0; v < base.GetNumVertices(); ++v) add(base.GetVertexSharpness(v));
-    int const released = std::min(static_cast<int>(std::ceil(sharpest)), kMaxSurfaceLevel);
+    int const released = std::min(static_cast<int>(std::ceil(sharpest)), kMostDefaultLevel);
     return std::max({1, options.startNormals.level, options.weights.level, released});
 }
 

@@ -81,7 +81,7 @@ struct LimitSurfaceStats {
 ///
 /// The level L is where weights stop being seeded, and what is still sharp there is infinitely sharp. Left to the
 /// library (the default) it is the largest of 1, the start levels, and the largest finite sharpness rounded up, but
-/// at most 8. Options that only a mesh has are refused: other than limit positions and linear averaging, N_L by
+/// at most 6. Options that only a mesh has are refused: other than limit positions and linear averaging, N_L by
 /// face averages, and the schemes InverseLimit and Bilinear. So are, as
 /// InvalidControlMesh, a mesh with a vertex of two non-manifold edges where a region begins and ends at one of
 /// them, and one of triangles that share two edges where a crease may end.

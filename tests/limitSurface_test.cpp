@@ -379,7 +379,7 @@ TEST(LimitSurface, ChoosesTheLevelAtWhichAllCreasesAreReleased) {
     EXPECT_EQ(Surface<double>(cube, SurfacePreset()).limit.Options().level, 1);
     EXPECT_EQ(Surface<double>(shapes::Cube().Crease(0, 1, 2.3F), SurfacePreset()).limit.Options().level, 3);
     EXPECT_EQ(Surface<double>(shapes::Cube().Crease(0, 1), SurfacePreset()).limit.Options().level, 1);
-    EXPECT_EQ(Surface<double>(shapes::Cube().Crease(0, 1, 9.5F), SurfacePreset()).limit.Options().level, 8);
+    EXPECT_EQ(Surface<double>(shapes::Cube().Crease(0, 1, 9.5F), SurfacePreset()).limit.Options().level, 6);
 }
 
 TEST(LimitSurface, RefusesAVertexWhoseRegionHasOneBorderOfItsTwo) {
