@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -406,6 +407,17 @@ TEST(SceneFields, RegionsOfAControlVertexAreItsFacesBetweenSharpEdges) {
 }
 
 // --- Editing ----------------------------------------------------------------------------------------------------
+
+TEST(Document, KnowsTheFilesBesideIt) {
+    TemporaryFolder const folder;
+    for (char const* name : {"b.obj", "a.obj", "c.ply"}) ioFiles::WriteBytes(folder.File(name), "v 0 0 0\n");
+    std::filesystem::create_directory(folder.File("d.obj"));
+    EXPECT_EQ(FilesBeside(folder.File("b.obj")),
+              (std::vector<std::string>{folder.File("a.obj"), folder.File("b.obj")}));
+    // No file, as what is built in: those of the current folder, which may have none.
+    EXPECT_NO_THROW(FilesBeside("mug"));
+    EXPECT_NO_THROW(FilesBeside(folder.File("no/such.obj")));
+}
 
 TEST(Document, UndoesAndRedoesWhatWasChanged) {
     Document document("cube_creased", {});

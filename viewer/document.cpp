@@ -2,6 +2,8 @@
 #include "document.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "builtInModels.h"
@@ -83,6 +85,22 @@ void Document::update() {
         model->cornerSharpness.push_back(sharpness);
     }
     _model = std::move(model);
+}
+
+std::vector<std::string> FilesBeside(std::string const& name) {
+    namespace fs = std::filesystem;
+    constexpr std::size_t kMost = 1000;
+    std::vector<std::string> files;
+    std::error_code ignored;
+    fs::path const folder = fs::is_regular_file(name, ignored) ? fs::path(name).parent_path() : fs::path();
+    for (auto entry = fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored);
+         !ignored && entry != fs::directory_iterator() && files.size() < kMost; entry.increment(ignored)) {
+        std::error_code isNoFile;
+        if (entry->path().extension() != ".obj" || !entry->is_regular_file(isNoFile)) continue;
+        files.push_back((folder / entry->path().filename()).string());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
 }  // namespace osd_shading::viewer

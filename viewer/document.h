@@ -59,4 +59,8 @@ private:
     Creases _saved;
 };
 
+/// The OBJ files of the folder that holds `name`, or of the current one where that is no file, in order; no more
+/// than a list can hold (1000).
+std::vector<std::string> FilesBeside(std::string const& name);
+
 }  // namespace osd_shading::viewer

@@ -58,6 +58,11 @@ void DrawFiles(Workbench& bench, PanelState& state) {
             std::string const candidate(model.name);
             if (ImGui::Selectable(candidate.c_str(), candidate == name)) bench.Open(candidate);
         }
+        if (ImGui::IsWindowAppearing()) state.filesBeside = FilesBeside(name);
+        if (!state.filesBeside.empty()) ImGui::Separator();
+        for (std::string const& file : state.filesBeside) {
+            if (ImGui::Selectable(file.c_str(), file == name)) bench.Open(file);
+        }
         ImGui::EndCombo();
     }
     bool const isEntered = ImGui::InputTextWithHint("##file", "OBJ file, or drop one", &state.openFile,

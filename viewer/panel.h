@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <string>
+#include <vector>
 
 #include "workbench.h"
 
@@ -17,6 +18,7 @@ struct PanelState {
     double updateSeconds = 0, drawSeconds = 0;                            ///< of the last frame, for display
 
     // What is typed in.
+    std::vector<std::string> filesBeside;  ///< the model's file; as the list was opened
     std::string openFile, cageFile = "creased.obj", resultFile = "shaded.ply", settingsFile = "viewer_settings.txt";
     std::string cameraText;
     float creaseAngle = 40;
