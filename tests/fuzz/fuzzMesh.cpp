@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -200,6 +201,9 @@ public:
         : _mesh(mesh), _options(options), _result(result) {}
 
     bool IsSteady(std::vector<Vec3<double>> ShadingResult<double>::*normals, std::size_t value) {
+        // Of three points all faces lie in one plane; where both sides meet rounding alone is left, however moved.
+        std::set<int> const used(_mesh.faceVertices.begin(), _mesh.faceVertices.end());
+        if (used.size() < 4) return false;
         constexpr double kSteady = 1e-3;
         for (double const way : {1.0, 2.5, 4.1}) {
             if (_moved.size() < 3) _moved.push_back(shade<double>(_mesh, _options, 1e-6, way));
