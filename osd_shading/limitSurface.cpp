@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "osd_shading/backToBack.h"
-#include "osd_shading/creaseRegions.h"
 #include "osd_shading/inputChecks.h"
 #include "osd_shading/oneShotShading.h"
 #include "osd_shading/surface/cutOut.h"
@@ -112,23 +111,15 @@ struct LimitSurface<Real>::Topology {
             "ShadeSubdivision");
     }
 
-    /// Where a crease ends both its sides are needed, and told apart by their vertices.
+    /// From level 1 on edges between them join the same two vertices, by which neighbourhoods are told apart.
     void CheckBackToBack() const {
         if (mesh.IsCatmark()) return;
-        for (auto const& [first, second] : FindBackToBack(base)) {
-            for (int const v : base.GetFaceVertices(first)) {
-                int numSharp = 0, numInfinite = 0;
-                for (int const edge : base.GetVertexEdges(v)) {
-                    numSharp += IsSharpEdge(base, edge);
-                    numInfinite += base.GetEdgeSharpness(edge) >= Sdc::Crease::SHARPNESS_INFINITE;
-                }
-                if (numSharp == 0 || numInfinite > 1) continue;
-                throw InvalidControlMesh("faces " + std::to_string(first) + " and " + std::to_string(second) +
-                                         " share two edges, and a crease may end at vertex " + std::to_string(v) +
-                                         " of theirs; a limit surface can't tell their sides apart, use "
-                                         "ShadeSubdivision");
-            }
-        }
+        auto const pairs = FindBackToBack(base);
+        if (pairs.empty()) return;
+        throw InvalidControlMesh("faces " + std::to_string(pairs[0].first) + " and " +
+                                 std::to_string(pairs[0].second) +
+                                 " share two edges, and a limit surface can't tell their sides apart; use "
+                                 "ShadeSubdivision");
     }
 
     std::shared_ptr<surface::FaceClass const> FindClass(tables::TileRing const& cutOut) const {

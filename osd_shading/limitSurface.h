@@ -84,7 +84,7 @@ struct LimitSurfaceStats {
 /// at most 6. Options that only a mesh has are refused: other than limit positions and linear averaging, N_L by
 /// face averages, and the schemes InverseLimit and Bilinear. So are, as
 /// InvalidControlMesh, a mesh with a vertex of two non-manifold edges where a region begins and ends at one of
-/// them, and one of triangles that share two edges where a crease may end.
+/// them, and one of triangles of Loop that share two edges.
 ///
 /// A face is built when it is first evaluated, from the faces up to two (with start levels 0, by Chaikin's rule or
 /// ExtraordinaryOnly, up to four) rings round it; equal neighbourhoods share what does not depend on positions.

@@ -303,7 +303,7 @@ TEST(LimitSurface, GivesNumbersAtRandomPointsOfRandomMeshes) {
         try {
             Surface<double> const surface(shape, chosen);
         } catch (InvalidControlMesh const&) {
-            continue;  // back to back, where a crease may end
+            continue;  // back to back
         }
         Surface<double> const exact(shape, chosen);
         Surface<float> const rounded(shape, chosen);
@@ -342,7 +342,7 @@ TEST(LimitSurface, AgreesWithTheUniformResultOnRandomMeshes) {
         try {
             d = CompareWithUniform(shape, chosen);
         } catch (InvalidControlMesh const&) {
-            ++numRefused;  // back to back, where a crease may end
+            ++numRefused;  // back to back
             continue;
         }
         std::string const text = name + ", seed " + std::to_string(seed) + ": " + d.where;
@@ -393,16 +393,14 @@ TEST(LimitSurface, RefusesAVertexWhoseRegionHasOneBorderOfItsTwo) {
                   Surface<double> const surface(shape, options);
               }).find("begin and end at the same non-manifold edge (vertices "),
               std::string::npos);
-    // Triangles back to back with a crease that may end at them are the other kind that is refused.
+    // Triangles of Loop back to back are the other kind that is refused.
     Shape twins = shapes::Tetrahedron();
     twins.SetFaces({{0, 1, 2}, {0, 2, 1}});
-    twins.rules.scheme = Sdc::SCHEME_LOOP;
     EXPECT_NO_THROW(Surface<double>(twins, options));
-    twins.Crease(0, 1, 2);
+    twins.rules.scheme = Sdc::SCHEME_LOOP;
     EXPECT_EQ(
         ErrorOf<InvalidControlMesh>([&] { Surface<double> const surface(twins, options); }),
-        "faces 0 and 1 share two edges, and a crease may end at vertex 0 of theirs; a limit surface can't tell "
-        "their sides apart, use ShadeSubdivision");
+        "faces 0 and 1 share two edges, and a limit surface can't tell their sides apart; use ShadeSubdivision");
     // Fins and books of faces have none such.
     for (Shape const& other : AllShapes()) {
         SCOPED_TRACE(other.name);
