@@ -3,11 +3,12 @@
 
 #include <algorithm>
 
+#include "osd_shading/errors.h"
+
 namespace osd_shading {
 inline namespace v1 {
 
-std::vector<std::pair<int, int>> FindBackToBack(Far::TopologyLevel const& level) {
-    std::vector<std::pair<int, int>> pairs;
+void RefuseBackToBack(Far::TopologyLevel const& level, std::string const& why) {
     for (int f = 0; f < level.GetNumFaces(); ++f) {
         Far::ConstIndexArray const edges = level.GetFaceEdges(f);
         if (edges.size() != 3) continue;
@@ -16,11 +17,11 @@ std::vector<std::pair<int, int>> FindBackToBack(Far::TopologyLevel const& level)
             Far::ConstIndexArray const faces = level.GetEdgeFaces(edges[i]);
             if (faces.size() != 2) continue;
             others[i] = faces[0] == f ? faces[1] : faces[0];
-            if (others[i] < f || std::count(others, others + i, others[i]) != 1) continue;
-            pairs.emplace_back(f, others[i]);
+            if (std::count(others, others + i, others[i]) == 0) continue;
+            throw InvalidControlMesh("faces " + std::to_string(f) + " and " + std::to_string(others[i]) +
+                                     " share two edges, " + why + "; use ShadeSubdivision");
         }
     }
-    return pairs;
 }
 
 }  // namespace v1

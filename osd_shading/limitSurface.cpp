@@ -96,7 +96,7 @@ struct LimitSurface<Real>::Topology {
             cornerOffsets.push_back(cornerOffsets.back() + index(base.GetFaceVertices(f).size()));
         }
         CheckBorders();
-        CheckBackToBack();
+        if (!mesh.IsCatmark()) RefuseBackToBack(base, "and a limit surface can't tell their sides apart");
     }
 
     void CheckBorders() const {
@@ -109,17 +109,6 @@ struct LimitSurface<Real>::Topology {
             ", " + std::to_string(ends[1]) +
             "), and its surface goes on along another one; a limit surface can't follow both, use "
             "ShadeSubdivision");
-    }
-
-    /// From level 1 on edges between them join the same two vertices, by which neighbourhoods are told apart.
-    void CheckBackToBack() const {
-        if (mesh.IsCatmark()) return;
-        auto const pairs = FindBackToBack(base);
-        if (pairs.empty()) return;
-        throw InvalidControlMesh("faces " + std::to_string(pairs[0].first) + " and " +
-                                 std::to_string(pairs[0].second) +
-                                 " share two edges, and a limit surface can't tell their sides apart; use "
-                                 "ShadeSubdivision");
     }
 
     std::shared_ptr<surface::FaceClass const> FindClass(tables::TileRing const& cutOut) const {

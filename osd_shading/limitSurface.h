@@ -82,9 +82,9 @@ struct LimitSurfaceStats {
 /// The level L is where weights stop being seeded, and what is still sharp there is infinitely sharp. Left to the
 /// library (the default) it is the largest of 1, the start levels, and the largest finite sharpness rounded up, but
 /// at most 6. Options that only a mesh has are refused: other than limit positions and linear averaging, N_L by
-/// face averages, and the schemes InverseLimit and Bilinear. So are, as
-/// InvalidControlMesh, a mesh with a vertex of two non-manifold edges where a region begins and ends at one of
-/// them, and one of triangles of Loop that share two edges.
+/// face averages, and the schemes InverseLimit and Bilinear. So are, as InvalidControlMesh, a mesh
+/// with a vertex of two non-manifold edges where a region begins and ends at one of them, and one with triangles of
+/// Loop that share two edges.
 ///
 /// A face is built when it is first evaluated, from the faces up to two (with start levels 0, by Chaikin's rule or
 /// ExtraordinaryOnly, up to four) rings round it; equal neighbourhoods share what does not depend on positions.

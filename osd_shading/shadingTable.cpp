@@ -43,20 +43,13 @@ void checkSize(std::int64_t numFaces, std::int64_t numFaceCorners, Sdc::SchemeTy
         static_cast<std::uint64_t>(count) * 4 * sizeof(int));
 }
 
-/// A table looks at a tile's surroundings alone from level 3 on.
-void checkBackToBack(RefinedTopology const& base, int level) {
-    if (base.IsCatmark() || level < 3) return;
-    auto const pairs = FindBackToBack(base.Level(0));
-    if (pairs.empty()) return;
-    throw InvalidControlMesh("faces " + std::to_string(pairs[0].first) + " and " + std::to_string(pairs[0].second) +
-                             " share two edges, which tables of Loop subdivision hold up to level 2 only; use "
-                             "ShadeSubdivision");
-}
-
 /// `base`: level 0 alone; `options` are resolved.
 std::shared_ptr<TableData const> build(RefinedTopology const& base, ShadingOptions const& options,
                                        ValueOrder order) {
-    checkBackToBack(base, options.level);
+    // A table looks at a tile's surroundings alone from level 3 on.
+    if (!base.IsCatmark() && options.level >= 3) {
+        RefuseBackToBack(base.Level(0), "which tables of Loop subdivision hold up to level 2 only");
+    }
     tables::CheckTableMemory(base, options, order);
     RefinedTopology const topology(base.Refiner(), options.startNormals.level);
     return tables::BuildTable(topology, options, order, true);

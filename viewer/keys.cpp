@@ -37,8 +37,7 @@ T Next(OptionNames<T, N> const& names, T value) {
 }
 
 void ChangeLevel(Workbench& bench, int step) {
-    int const shown = bench.CurrentScene() ? bench.CurrentScene()->options.level : ShadingOptions{}.level;
-    int const level = bench.settings.shading.level.value_or(shown) + step;
+    int const level = bench.ChosenLevel() + step;
     if (level < 0 || level > kMaxViewerLevel) return;
     SetLevel(bench.settings.shading, level);
     bench.Apply();

@@ -146,9 +146,7 @@ bool DrawTessellation(tool::TessellationChoice& given) {
 bool DrawMethod(Workbench& bench) {
     tool::ShadingChoice& given = bench.settings.shading;
     ShadingOptions options = bench.settings.ResolveShading();
-    if (options.level == kDefaultSurfaceLevel) {
-        options.level = bench.CurrentScene() ? bench.CurrentScene()->options.level : ShadingOptions{}.level;
-    }
+    options.level = bench.ChosenLevel();
     int level = options.level;
     bool hasChanged = DrawTessellation(bench.settings.tessellation);
     if (ImGui::SliderInt("level", &level, 0, kMaxViewerLevel)) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "requestShading.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -22,7 +21,7 @@ std::array<double, 16> ViewProjection(SceneRequest const& request, PointView<Rea
         Vec3<Real> const p = points[i];
         shown.emplace_back(glm::dvec3(p.x, p.y, p.z) - origin);
     }
-    Sphere const bounds = SphereAround(shown);
+    Sphere const bounds = SphereAround(shown, [](glm::vec3 const& p) { return p; });
     float const aspect =
         static_cast<float>(request.tessellation->width) / static_cast<float>(request.tessellation->height);
     Camera const camera = request.camera.For(bounds, aspect);
@@ -45,19 +44,6 @@ glm::dvec3 OriginOf(io::Model const& model) {
         high = i == 0 ? p : glm::max(high, p);
     }
     return low + (high - low) / 2.0;
-}
-
-Sphere SphereAround(std::vector<glm::vec3> const& points) {
-    if (points.empty()) return {};
-    glm::vec3 low = points[0], high = low;
-    for (glm::vec3 const& p : points) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    Sphere sphere{(low + high) / 2.0F, 0};
-    for (glm::vec3 const& p : points) sphere.radius = std::max(sphere.radius, glm::distance(p, sphere.center));
-    if (!(sphere.radius > 0)) sphere.radius = 1;
-    return sphere;
 }
 
 template <typename Real>

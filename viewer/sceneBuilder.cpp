@@ -70,13 +70,6 @@ std::vector<SurfaceVertex> VerticesOf(ShadingResult<Real> const& result) {
     return vertices;
 }
 
-Sphere BoundsOf(std::vector<SurfaceVertex> const& vertices) {
-    std::vector<glm::vec3> points;
-    points.reserve(vertices.size());
-    for (SurfaceVertex const& vertex : vertices) points.push_back(vertex.position);
-    return SphereAround(points);
-}
-
 bool IsSame(SubdivisionRules const& a, SubdivisionRules const& b) {
     return a.scheme == b.scheme && a.boundary == b.boundary && a.faceVarying == b.faceVarying &&
            a.creasing == b.creasing && a.triangles == b.triangles;
@@ -131,7 +124,7 @@ std::shared_ptr<Scene const> SceneBuilder::Build(SceneRequest const& request,
                                               : shade(request, ViewOf(points), progress);
     }
     scene->origin = origin;
-    scene->bounds = BoundsOf(scene->vertices);
+    scene->bounds = SphereAround(scene->vertices, [](SurfaceVertex const& vertex) { return vertex.position; });
     scene->cage = MakeCage(model, points);
     scene->seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return scene;

@@ -65,6 +65,12 @@ void Workbench::Apply() {
     if (document) attempt([&] { submit(document); });
 }
 
+int Workbench::ChosenLevel() const {
+    int const level = settings.ResolveShading().level;
+    if (level != kDefaultSurfaceLevel) return level;
+    return _scene ? _scene->options.level : ShadingOptions{}.level;
+}
+
 void Workbench::Open(std::string const& name) {
     attempt([&] {
         auto const document = std::make_shared<Document>(name, settings.mesh);

@@ -27,6 +27,8 @@ public:
     Settings settings;
     glm::ivec2 screen{1280, 800};  ///< pixels, where triangles are as long as is seen
     void Apply();
+    /// The level that the settings ask for, or that the scene has where it is left to the library.
+    int ChosenLevel() const;
 
     /// Opens a model; the old one stays until the new one is shown, and where that can't be.
     void Open(std::string const& name);
