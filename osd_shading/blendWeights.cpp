@@ -9,20 +9,28 @@
 
 #include "osd_shading/extraordinaryVertices.h"
 #include "osd_shading/vectorMath.h"
+#include "osd_shading/vertexTags.h"
 
 namespace osd_shading {
 inline namespace v1 {
 
 namespace {
 
+/// The last of all levels that weights go through.
+struct LastLevel {
+    CreaseRegions const& regions;  // of the topology's last one
+    int numBelow;                  // levels below that
+};
+
 /// What the vertex-vertex child of `vertex` is at the last level.
-VertexKind kindAtLastLevel(RefinedTopology const& topology, int level, int vertex, CreaseRegions const& last) {
+VertexKind kindAtLastLevel(RefinedTopology const& topology, int level, int vertex, LastLevel const& last) {
     for (int l = level; l < topology.LastLevel(); ++l) vertex = topology.Level(l).GetVertexChildVertex(vertex);
-    return last.Kind(vertex);
+    if (last.numBelow > 0) return KindBelow(topology, topology.LastLevel(), vertex, last.numBelow);
+    return last.regions.Kind(vertex);
 }
 
 void markRegionsOf(BlendWeightOptions const& options, RefinedTopology const& topology, int levelIndex,
-                   CreaseRegions const& regions, CreaseRegions const& last, ValueMarks& eligible) {
+                   CreaseRegions const& regions, LastLevel const& last, ValueMarks& eligible) {
     Far::TopologyLevel const& level = topology.Level(levelIndex);
     std::vector<RegionFan> fans;
     for (int v = 0; v < regions.NumVertices(); ++v) {
@@ -48,7 +56,7 @@ void markRegionsOf(BlendWeightOptions const& options, RefinedTopology const& top
 }
 
 ValueMarks findEligible(BlendWeightOptions const& options, RefinedTopology const& topology, int levelIndex,
-                        CreaseRegions const& regions, CreaseRegions const& last) {
+                        CreaseRegions const& regions, LastLevel const& last) {
     ValueMarks eligible(static_cast<std::size_t>(regions.NumValues()), 0);
     if (options.sharpVertices == SharpVertexWeight::PerRegion) {
         markRegionsOf(options, topology, levelIndex, regions, last, eligible);
@@ -192,14 +200,15 @@ void seedInverseLimit(BlendWeightOptions const& options, LimitStep<Real> const& 
 /// `history`: takes what each level had, unless it is null.
 template <typename Real>
 std::vector<Real> refineWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
-                                FieldLevels<Real> const& levels, LimitStep<Real> const* limit,
-                                WeightHistory<Real>* history, int numThreads) {
+                                FieldLevels<Real> const& levels, WeightLevels<Real> const& part,
+                                LimitStep<Real> const* limit, WeightHistory<Real>* history, int numThreads) {
     auto const numValuesOf = [&](int level) { return static_cast<std::size_t>(levels.Regions(level).NumValues()); };
     int const lastLevel = topology.LastLevel();
-    CreaseRegions const& last = levels.Regions(lastLevel);
+    LastLevel const last{levels.Regions(lastLevel), part.numBelow};
     if (options.scheme == WeightScheme::One) return std::vector<Real>(numValuesOf(lastLevel), Real(1));
 
-    std::vector<Real> weights(numValuesOf(options.level), Real(0));
+    std::vector<Real> weights =
+        part.given != nullptr ? *part.given : std::vector<Real>(numValuesOf(options.level), Real(0));
     ValueMarks parentEligible;
     for (int level = options.level; level <= lastLevel; ++level) {
         CreaseRegions const& here = levels.Regions(level);
@@ -230,6 +239,11 @@ std::vector<Real> refineWeights(BlendWeightOptions const& options, RefinedTopolo
             history->changed.push_back(std::move(changed));
         };
         ValueMarks eligible = findEligible(options, topology, level, here, last);
+        if (isFirst && part.given != nullptr) {
+            parentEligible.swap(eligible);
+            keep();
+            continue;
+        }
         if (options.scheme == WeightScheme::OneRing) {
             SeedRings(options, topology.Level(level), here, eligible, weights);
             keep();
@@ -259,9 +273,10 @@ std::vector<Real> refineWeights(BlendWeightOptions const& options, RefinedTopolo
 
 template <typename Real>
 WeightHistory<Real> ComputeWeightHistory(BlendWeightOptions const& options, RefinedTopology const& topology,
-                                         FieldLevels<Real> const& levels, int numThreads) {
+                                         FieldLevels<Real> const& levels, WeightLevels<Real> const& part,
+                                         int numThreads) {
     WeightHistory<Real> history;
-    refineWeights<Real>(options, topology, levels, nullptr, &history, numThreads);
+    refineWeights<Real>(options, topology, levels, part, nullptr, &history, numThreads);
     return history;
 }
 
@@ -269,7 +284,7 @@ template <typename Real>
 std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, RefinedTopology const& topology,
                                       FieldLevels<Real> const& levels, LimitStep<Real> const& limit,
                                       int numThreads) {
-    std::vector<Real> weights = refineWeights<Real>(options, topology, levels, &limit, nullptr, numThreads);
+    std::vector<Real> weights = refineWeights<Real>(options, topology, levels, {}, &limit, nullptr, numThreads);
     if (options.scheme == WeightScheme::One) return weights;
     if (options.scheme != WeightScheme::Bilinear) {
         std::vector<Real> limits(weights.size());
@@ -280,12 +295,12 @@ std::vector<Real> ComputeBlendWeights(BlendWeightOptions const& options, Refined
     return weights;
 }
 
-#define OSD_SHADING_INSTANTIATE(Real)                                                                      \
-    template WeightHistory<Real> ComputeWeightHistory(BlendWeightOptions const&, RefinedTopology const&,   \
-                                                      FieldLevels<Real> const&, int);                      \
-    template std::vector<Real> ComputeBlendWeights(BlendWeightOptions const&, RefinedTopology const&,      \
-                                                   FieldLevels<Real> const&, LimitStep<Real> const&, int); \
-    template void SeedRings(BlendWeightOptions const&, Far::TopologyLevel const&, CreaseRegions const&,    \
+#define OSD_SHADING_INSTANTIATE(Real)                                                                            \
+    template WeightHistory<Real> ComputeWeightHistory(BlendWeightOptions const&, RefinedTopology const&,         \
+                                                      FieldLevels<Real> const&, WeightLevels<Real> const&, int); \
+    template std::vector<Real> ComputeBlendWeights(BlendWeightOptions const&, RefinedTopology const&,            \
+                                                   FieldLevels<Real> const&, LimitStep<Real> const&, int);       \
+    template void SeedRings(BlendWeightOptions const&, Far::TopologyLevel const&, CreaseRegions const&,          \
                             ValueMarks const&, std::vector<Real>&);
 OSD_SHADING_INSTANTIATE(float)
 OSD_SHADING_INSTANTIATE(double)

@@ -37,10 +37,19 @@ struct WeightHistory {
     std::vector<ValueMarks> changed;         ///< likewise: whether seeding changed what refining had given
 };
 
+/// Where `topology` is only some of the levels that weights go through.
+template <typename Real>
+struct WeightLevels {
+    /// b of the start level, as seeded there, where levels above have given it. Null: it starts there, from zero.
+    std::vector<Real> const* given = nullptr;
+    int numBelow = 0;  ///< levels below the last: up to those vertices have to stay sharp that variant C seeds
+};
+
 /// REQUIRES: a scheme that seeds, other than One.
 template <typename Real>
 WeightHistory<Real> ComputeWeightHistory(BlendWeightOptions const& options, RefinedTopology const& topology,
-                                         FieldLevels<Real> const& levels, int numThreads);
+                                         FieldLevels<Real> const& levels, WeightLevels<Real> const& part,
+                                         int numThreads);
 
 /// Sets b = 1 on the rings of eligible vertices of a level, or of their regions.
 template <typename Real>

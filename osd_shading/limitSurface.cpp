@@ -28,10 +28,20 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// The highest level that is taken where it is left to the library: each above takes four times as long to build.
-constexpr int kMostDefaultLevel = 6;
-/// The most neighbourhoods that are kept for other faces: some 100 kilobytes each.
-constexpr std::size_t kMostKept = 1024;
+/// The highest levels, left to the library and given, where a neighbourhood may have to be refined whole: each
+/// above takes four times as long to build.
+constexpr int kMostDefaultWhole = 6, kMostWhole = 8;
+/// The most memory in neighbourhoods that are kept for other faces: some 100 kilobytes each, a megabyte and more
+/// where creases fade far down.
+constexpr std::size_t kMostKeptBytes = std::size_t{256} << 20;
+
+/// Round non-manifold creases what still fades can't be cut out anew.
+bool mayBeWhole(Far::TopologyLevel const& base) {
+    for (int v = 0; v < base.GetNumVertices(); ++v) {
+        if (base.IsVertexNonManifold(v) && base.GetVertexFaces(v).size() > 0) return true;
+    }
+    return false;
+}
 
 int findDefaultLevel(Far::TopologyLevel const& base, ShadingOptions const& options) {
     float sharpest = 0;
@@ -40,8 +50,10 @@ int findDefaultLevel(Far::TopologyLevel const& base, ShadingOptions const& optio
     };
     for (int e = 0; e < base.GetNumEdges(); ++e) add(base.GetEdgeSharpness(e));
     for (int v = 0; v < base.GetNumVertices(); ++v) add(base.GetVertexSharpness(v));
-    int const released = std::min(static_cast<int>(std::ceil(sharpest)), kMostDefaultLevel);
-    return std::max({1, options.startNormals.level, options.weights.level, released});
+    int const released = std::min(static_cast<int>(std::ceil(sharpest)), kMaxSurfaceLevel);
+    bool const isTooDeep = released > kMostDefaultWhole && mayBeWhole(base);
+    return std::max(
+        {1, options.startNormals.level, options.weights.level, isTooDeep ? kMostDefaultWhole : released});
 }
 
 ShadingOptions resolve(ShadingOptions options, Far::TopologyRefiner const& refiner) {
@@ -52,6 +64,10 @@ ShadingOptions resolve(ShadingOptions options, Far::TopologyRefiner const& refin
     if (options.level > kMaxSurfaceLevel) {
         fail("has a level of at most " + std::to_string(kMaxSurfaceLevel) + ", not " +
              std::to_string(options.level));
+    }
+    if (options.level > kMostWhole && mayBeWhole(refiner.GetLevel(0))) {
+        fail("of a mesh with non-manifold vertices has a level of at most " + std::to_string(kMostWhole) +
+             ", not " + std::to_string(options.level));
     }
     if (options.subdividedNormals.averaging != NormalAveraging::Linear) {
         fail("has linear averaging of normals only; use ShadeSubdivision for the others");
@@ -84,6 +100,7 @@ struct LimitSurface<Real>::Topology {
     mutable std::unordered_map<std::vector<std::int32_t>, std::shared_ptr<surface::FaceClass const>,
                                tables::KeyHash>
         classes;
+    mutable std::size_t keptBytes = 0;
 
     template <typename Source>
     Topology(Source const& source, ShadingOptions const& given)
@@ -118,7 +135,11 @@ struct LimitSurface<Real>::Topology {
         auto const known = classes.find(key);
         if (known != classes.end()) return known->second;
         std::shared_ptr<surface::FaceClass const> made = surface::MakeFaceClass(options, cutOut, limitClasses);
-        if (classes.size() < kMostKept) classes.emplace(std::move(key), made);
+        std::size_t const bytes = made->NumBytes() + key.capacity() * sizeof key[0];
+        if (keptBytes + bytes <= kMostKeptBytes) {
+            classes.emplace(std::move(key), made);
+            keptBytes += bytes;
+        }
         return made;
     }
 };

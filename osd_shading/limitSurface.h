@@ -22,7 +22,7 @@ namespace Far = OpenSubdiv::OPENSUBDIV_VERSION::Far;
 /// The level of a LimitSurface that is left to the library: see there.
 constexpr int kDefaultSurfaceLevel = -1;
 /// The highest level of a LimitSurface.
-constexpr int kMaxSurfaceLevel = 8;
+constexpr int kMaxSurfaceLevel = 10;
 
 /// The defaults, variant B, for a LimitSurface whose level is left to the library. [ZBK23]
 inline ShadingOptions SurfacePreset() {
@@ -80,11 +80,11 @@ struct LimitSurfaceStats {
 /// ShadeSubdivision.
 ///
 /// The level L is where weights stop being seeded, and what is still sharp there is infinitely sharp. Left to the
-/// library (the default) it is the largest of 1, the start levels, and the largest finite sharpness rounded up, but
-/// at most 6. Options that only a mesh has are refused: other than limit positions and linear averaging, N_L by
-/// face averages, and the schemes InverseLimit and Bilinear. So are, as InvalidControlMesh, a mesh
-/// with a vertex of two non-manifold edges where a region begins and ends at one of them, and one with triangles of
-/// Loop that share two edges.
+/// library (the default) it is the largest of 1, the start levels, and the largest finite sharpness rounded up (at
+/// most 6 of a mesh with non-manifold vertices, where 8 can be given). Options that only a mesh has are refused:
+/// other than limit positions and linear averaging, N_L by face averages, and the schemes InverseLimit and
+/// Bilinear. So are, as InvalidControlMesh, a mesh with a vertex of two non-manifold edges where a region begins
+/// and ends at one of them, and one with triangles of Loop that share two edges.
 ///
 /// A face is built when it is first evaluated, from the faces up to two (with start levels 0, by Chaikin's rule or
 /// ExtraordinaryOnly, up to four) rings round it; equal neighbourhoods share what does not depend on positions.

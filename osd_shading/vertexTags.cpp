@@ -2,6 +2,7 @@
 #include "osd_shading/vertexTags.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "osd_shading/extraordinaryVertices.h"
 
@@ -19,6 +20,22 @@ VertexKind KindOf(Sdc::Crease::Rule rule) {
         default:
             return VertexKind::Smooth;
     }
+}
+
+VertexKind KindBelow(RefinedTopology const& topology, int levelIndex, int vertex, int numLevels) {
+    Far::TopologyLevel const& level = topology.Level(levelIndex);
+    Sdc::Crease const crease(topology.Refiner().GetSchemeOptions());
+    float atVertex = level.GetVertexSharpness(vertex);
+    std::vector<float> sharpness;
+    for (int const edge : level.GetVertexEdges(vertex)) sharpness.push_back(level.GetEdgeSharpness(edge));
+    int const numEdges = static_cast<int>(sharpness.size());
+    std::vector<float> below(sharpness.size());
+    for (int i = 0; i < numLevels; ++i) {
+        atVertex = crease.SubdivideVertexSharpness(atVertex);
+        crease.SubdivideEdgeSharpnessesAroundVertex(numEdges, sharpness.data(), below.data());
+        sharpness.swap(below);
+    }
+    return KindOf(crease.DetermineVertexVertexRule(atVertex, numEdges, sharpness.data()));
 }
 
 VertexTag TagOf(bool isCatmark, Far::TopologyLevel const& level, int vertex) {

@@ -12,6 +12,9 @@ inline namespace v1 {
 /// The kind of vertex that OpenSubdiv's rule makes.
 VertexKind KindOf(Sdc::Crease::Rule rule);
 
+/// The kind of the child of a vertex `numLevels` further down, by the sharpness that is left there.
+VertexKind KindBelow(RefinedTopology const& topology, int level, int vertex, int numLevels);
+
 /// What a vertex of a level is.
 VertexTag TagOf(bool isCatmark, Far::TopologyLevel const& level, int vertex);
 

@@ -74,6 +74,50 @@ TEST(LimitSurface, IsTheUniformResultAtThePointsOfTheLastLevel) {
     }
 }
 
+TEST(LimitSurface, IsTheUniformResultWhereCreasesFadeFarDown) {
+    // There the levels are not refined whole: of each few, what still fades is cut out anew. Sharpness by 2.4 more
+    // than what the shapes have, so that it is released at levels 3 to 5.
+    std::size_t turn = 0;
+    for (Shape shape : AllShapes()) {
+        bool hasFading = false;
+        auto const sharpen = [&](std::vector<float>& sharpness) {
+            for (float& s : sharpness) {
+                if (!(s > 0) || s >= Sdc::Crease::SHARPNESS_INFINITE) continue;
+                s = std::min(s + 2.4F, 4.8F);
+                hasFading = true;
+            }
+        };
+        sharpen(shape.creaseSharpness);
+        sharpen(shape.cornerSharpness);
+        if (!hasFading) continue;
+        ++turn;
+        for (auto const& [name, options] : ManyOptions()) {
+            ++turn;
+            if (name.rfind("level", 0) == 0 || (turn % 4 != 0 && !IsFullRun())) continue;
+            Differences const d = CompareWithUniform(shape, options);
+            std::string const text = shape.name + ", " + name + ": " + d.where;
+            double const slack = shape.rules.creasing == Sdc::Options::CREASE_CHAIKIN ? 1e5 : 1;
+            EXPECT_LE(d.position, slack * 1e-13) << text;
+            EXPECT_LE(d.weight, slack * 1e-12) << text;
+            EXPECT_LE(d.limitNormal, slack * 1e-11) << text;
+            EXPECT_LE(d.subdivided, slack * 1e-11) << text;
+            EXPECT_LE(d.blended, slack * 1e-11) << text;
+        }
+    }
+    EXPECT_GT(turn, 100);
+
+    // And once through many cuts.
+    for (Shape shape : {shapes::Cube().Crease(0, 1, 6.8F), shapes::Cube().Crease(0, 1, 6.8F).Loop()}) {
+        for (SharpVertexWeight const variant : {SharpVertexWeight::Zero, SharpVertexWeight::PerRegion}) {
+            ShadingOptions options = SurfacePreset();
+            options.weights.sharpVertices = variant;
+            Differences const d = CompareWithUniform(shape, options);
+            EXPECT_LE(std::max(d.position, d.weight), 1e-12) << d.where;
+            EXPECT_LE(std::max({d.limitNormal, d.subdivided, d.blended}), 1e-11) << d.where;
+        }
+    }
+}
+
 TEST(LimitSurface, TakesTheCallersNormalsByFaceCorner) {
     for (Shape const& shape : AllShapes()) {
         ShadingOptions options = SurfacePreset();
@@ -379,7 +423,16 @@ TEST(LimitSurface, ChoosesTheLevelAtWhichAllCreasesAreReleased) {
     EXPECT_EQ(Surface<double>(cube, SurfacePreset()).limit.Options().level, 1);
     EXPECT_EQ(Surface<double>(shapes::Cube().Crease(0, 1, 2.3F), SurfacePreset()).limit.Options().level, 3);
     EXPECT_EQ(Surface<double>(shapes::Cube().Crease(0, 1), SurfacePreset()).limit.Options().level, 1);
-    EXPECT_EQ(Surface<double>(shapes::Cube().Crease(0, 1, 9.5F), SurfacePreset()).limit.Options().level, 6);
+    EXPECT_EQ(Surface<double>(shapes::Cube().Crease(0, 1, 9.5F), SurfacePreset()).limit.Options().level, 10);
+    // Where neighbourhoods may have to be refined whole.
+    Shape fin = shapes::Cube().Crease(0, 1, 9.5F);
+    fin.Vertex(0, 0, 9).Vertex(0, 1, 9).Face({fin.faceVertices[0], fin.faceVertices[1], 8, 9});
+    EXPECT_EQ(Surface<double>(fin, SurfacePreset()).limit.Options().level, 6);
+    ShadingOptions options = SurfacePreset();
+    options.level = 9;
+    EXPECT_NE(
+        ErrorOf<InvalidOptions>([&] { Surface<double> const surface(fin, options); }).find("at most 8, not 9"),
+        std::string::npos);
 }
 
 TEST(LimitSurface, RefusesAVertexWhoseRegionHasOneBorderOfItsTwo) {
@@ -428,7 +481,7 @@ TEST(LimitSurface, RefusesInWordsWhatOnlyAMeshHas) {
                   o.subdividedNormals.averaging = NormalAveraging::Spherical;
               }).find("linear"),
               std::string::npos);
-    EXPECT_NE(wordsOf([](ShadingOptions& o) { o.level = 9; }).find("at most 8"), std::string::npos);
+    EXPECT_NE(wordsOf([](ShadingOptions& o) { o.level = 11; }).find("at most 10"), std::string::npos);
     EXPECT_NE(wordsOf([](ShadingOptions& o) { o.level = -2; }).find("0 to 15"), std::string::npos);
     Surface<double> const surface(cube, SurfacePreset());
     EXPECT_NE(ErrorOf<InvalidOptions>([&] { surface.limit.Evaluate(6, 0, 0); }).find("face 6"), std::string::npos);

@@ -159,7 +159,7 @@ TEST(CommandLine, RefusesBadValuesInOneLineThatNamesTheOption) {
         {{"--tessellate", "4", "--check"}, "--check: needs a uniform level"},
         {{"--tessellate", "4", "--frames", "2"}, "--frames: needs a uniform level"},
         {{"--tessellate", "4", "--positions", "refined"}, "limit positions only"},
-        {{"--tessellate", "4", "--level", "9"}, "at most 8"},
+        {{"--tessellate", "4", "--level", "11"}, "at most 10"},
         {{"--exponent", "0"}, "--exponent: '0'"},
         {{"--exponent", "-2"}, "--exponent: '-2'"},
         {{"--exponent", "nan"}, "--exponent: 'nan'"},

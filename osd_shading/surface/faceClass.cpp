@@ -6,8 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "osd_shading/blendWeights.h"
-#include "osd_shading/limitFrames.h"
+#include "osd_shading/surface/cutOutLevels.h"
 #include "osd_shading/tables/faceGrid.h"
 #include "osd_shading/tables/tangentRows.h"
 
@@ -21,61 +20,77 @@ namespace {
 /// is refined when it is asked for.
 constexpr int kKeptLevels = 4;
 
+/// How many levels are refined before what is settled by then is left out.
+constexpr int kLevelsOfCut = 2;
+
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 class FaceCompiler {
 public:
     FaceCompiler(FaceClassOptions const& options, tables::TileRing const& cutOut, LimitClasses& limitClasses)
-        : _options(options),
-          _lastLevel(options.shading.level),
-          _limitClasses(limitClasses),
-          _mesh(cutOut),
-          _topology(_mesh.Mesh(options.rules), _lastLevel),
-          _levels(_topology),
-          _limits(index(_lastLevel) + 1),
-          _made(std::make_unique<FaceClass>()) {}
+        : _options(options), _limitClasses(limitClasses), _mesh(cutOut) {}
 
     std::unique_ptr<FaceClass> Compile() {
-        _made->isCatmark = _topology.IsCatmark();
-        findWeights();
-        bool const isNgon = _topology.IsCatmark() && _topology.Level(0).GetFaceVertices(_mesh.tileFace).size() != 4;
-        if (isNgon) {
-            Far::ConstIndexArray const children = _levels.Level(0).GetFaceChildFaces(_mesh.tileFace);
-            std::vector<std::uint32_t> const roots = newNodes(children.size());
-            for (int i = 0; i < children.size(); ++i) compile(1, children[i], roots[index(i)]);
-            _made->patches->roots = roots;
-        } else {
-            _made->patches->roots = newNodes(1);
-            compile(0, _mesh.tileFace, _made->patches->roots[0]);
-        }
-        makeFirstLines();
+        // The first levels whole; then, some at a time, of what is not settled alone.
+        ShadingOptions const& shading = _options.shading;
+        int const first = std::max(shading.startNormals.level, shading.weights.level) + kLevelsOfCut;
+        if (!compileLevels(std::min(first, shading.level))) compileLevels(shading.level);
+        finishNormals();
         finishRows();
         return std::move(_made);
     }
 
 private:
-    bool usesOne() const { return _options.shading.weights.scheme == WeightScheme::One; }
+    /// A face of the last level of a cut-out that is not settled.
+    struct Unsettled {
+        std::uint32_t node;
+        int face;
+    };
 
-    void findWeights() {
-        BlendWeightOptions const& options = _options.shading.weights;
-        if (usesOne()) {
-            _hasWeights = true;
+    /// Begins with levels down to `last`; false where what is not settled there can't be cut out.
+    bool compileLevels(int last) {
+        _made = std::make_unique<FaceClass>();
+        _firstLines.clear();
+        _pending.clear();
+        _unsettled.clear();
+        auto levels = std::make_unique<CutOutLevels>(_options, _mesh, last);
+        begin(*levels);
+        compileRoots();
+        makeFirstLines();
+        while (!_unsettled.empty()) {
+            std::vector<Unsettled> const above = std::exchange(_unsettled, {});
+            std::vector<int> faces, facesHere;
+            for (Unsettled const& left : above) faces.push_back(left.face);
+            if (!levels->CanBeCut(faces)) return false;
+            last = std::min(last + kLevelsOfCut, _options.shading.level);
+            levels = std::make_unique<CutOutLevels>(*levels, faces, NumRingsOf(_options), last, facesHere);
+            begin(*levels);
+            for (std::size_t i = 0; i < above.size(); ++i) compile(0, facesHere[i], above[i].node);
+            makeFirstLines();
+        }
+        return true;
+    }
+
+    void begin(CutOutLevels& levels) {
+        _levels = &levels;
+        _numLinesBefore = _firstLines.size();
+        _numCornersBefore = _made->corners.size();
+        _lineOfValue.clear();
+        _corners.clear();
+    }
+
+    void compileRoots() {
+        _made->isCatmark = _levels->Topology().IsCatmark();
+        bool const isNgon = _made->isCatmark && _levels->Level(0).GetFaceVertices(_mesh.tileFace).size() != 4;
+        if (!isNgon) {
+            _made->patches->roots = newNodes(1);
+            compile(0, _mesh.tileFace, _made->patches->roots[0]);
             return;
         }
-        FieldLevels<double> const levels(_topology, options.level, 1);
-        _history = ComputeWeightHistory(options, _topology, levels, 1);
-        auto const isSet = [](auto b) { return b != 0; };
-        _hasWeights = std::any_of(_history.weights.back().begin(), _history.weights.back().end(), isSet);
-        for (ValueMarks const& marks : _history.changed) {
-            _isChanged.push_back(std::any_of(marks.begin(), marks.end(), isSet));
-        }
-    }
-    int firstWeights() const { return _options.shading.weights.level; }
-    /// b of a value, before any limit.
-    double weightOf(int level, int value) const {
-        if (usesOne()) return 1;
-        if (!_hasWeights || level < firstWeights()) return 0;
-        return _history.weights[index(level - firstWeights())][index(value)];
+        Far::ConstIndexArray const children = _levels->Level(0).GetFaceChildFaces(_mesh.tileFace);
+        std::vector<std::uint32_t> const roots = newNodes(children.size());
+        for (int i = 0; i < children.size(); ++i) compile(1, children[i], roots[index(i)]);
+        _made->patches->roots = roots;
     }
 
     std::vector<std::uint32_t> newNodes(int count) {
@@ -87,90 +102,21 @@ private:
         return numbers;
     }
 
-    /// Whether `isIt(value)` of any value of the faces round a face's descendants at level `at`.
-    template <typename IsIt>
-    bool anyRound(int level, int face, int at, IsIt const& isIt) {
-        if (level < at) {
-            Far::ConstIndexArray const children = _levels.Level(level).GetFaceChildFaces(face);
-            return std::any_of(children.begin(), children.begin() + children.size(),
-                               [&](int child) { return anyRound(level + 1, child, at, isIt); });
-        }
-        CreaseRegions const& regions = _levels.Regions(level);
-        for (int const v : _levels.Level(level).GetFaceVertices(face)) {
-            for (int const around : _levels.Level(level).GetVertexFaces(v)) {
-                int const* const values = regions.FaceValues(around);
-                for (int i = 0; i < _levels.Level(level).GetFaceVertices(around).size(); ++i) {
-                    if (isIt(values[i])) return true;
-                }
-            }
-        }
-        return false;
-    }
-
-    bool hasWeight(int level, int face) {
-        return _hasWeights &&
-               anyRound(level, face, _lastLevel, [&](int value) { return weightOf(_lastLevel, value) != 0; });
-    }
-
-    /// Whether nothing is seeded round a face any more that refining alone does not give.
-    bool isSeeded(int level, int face) {
-        if (level < std::max(_options.shading.startNormals.level, firstWeights())) return false;
-        for (int at = level + 1; at <= _lastLevel; ++at) {
-            ValueMarks const& changed = _history.changed[index(at - firstWeights())];
-            if (!_isChanged[index(at - firstWeights())]) continue;
-            if (anyRound(level, face, at, [&](int value) { return changed[index(value)] != 0; })) return false;
-        }
-        return true;
-    }
-
-    LimitStep<double> const& limitStep(int level) {
-        std::unique_ptr<LimitStep<double>>& limit = _limits[index(level)];
-        if (!limit) {
-            limit = std::make_unique<LimitStep<double>>(_topology, level, _levels.Regions(level), 1,
-                                                        _options.shading.limits.normals);
-        }
-        return *limit;
-    }
-
-    /// Whether the limits at a face's vertices are the same taken at any level: where the masks are exact, and
-    /// there is a tangent plane.
-    bool hasExactCorners(int level, int face) {
-        CreaseRegions const& regions = _levels.Regions(level);
-        Far::ConstIndexArray const vertices = _levels.Level(level).GetFaceVertices(face);
-        std::vector<LimitFrame<double>> frames;
-        for (int corner = 0; corner < vertices.size(); ++corner) {
-            int const v = vertices[corner];
-            FindLimitFrames(limitStep(level), v, frames);
-            LimitFrame<double> const& frame =
-                frames[index(regions.CornerValue(face, corner) - regions.FirstValue(v))];
-            if (frame.isAverage) return false;
-            if (_options.shading.limits.normals == LimitNormalKind::Exact) continue;
-            auto const numFaces = static_cast<int>(frame.fan.faces.size());
-            int const lastExactFan = _topology.IsCatmark() ? 2 : 3;
-            VertexKind const kind = regions.Kind(v);
-            if (kind == VertexKind::Dart || (kind == VertexKind::Smooth && numFaces == 2) ||
-                (kind == VertexKind::Crease && numFaces > lastExactFan)) {
-                return false;
-            }
-        }
-        return true;
-    }
-
     void compile(int level, int face, std::uint32_t node) {
         // As large as can be, where nothing changes any more.
-        bool const isNgonMesh = level == 0 && _topology.HasIrregularFaces(0);
-        bool isSettled = level == _lastLevel;
-        if (!isSettled && !isNgonMesh && StaysAsItIs(_levels, level, face, _lastLevel - level)) {
-            isSettled = usesOne()                ? level >= _options.shading.startNormals.level
-                        : hasWeight(level, face) ? isSeeded(level, face)
-                                                 : true;
+        bool const isLast = level == _levels->LastLevel() && _levels->NumLevelsBelow() == 0;
+        if (level == _levels->LastLevel() && !isLast) {
+            _unsettled.push_back({node, face});
+            return;
         }
-        if (isSettled) {
+        if (isLast || _levels->IsSettled(level, face)) {
             std::vector<FaceCorner> inputs;
-            LimitClass const& found = _limitClasses.Find(_levels, level, face, inputs);
-            if (found.IsRegular() || level == _lastLevel || hasExactCorners(level, face)) {
+            LimitClass const& found = _limitClasses.Find(_levels->Levels(), level, face, inputs);
+            if (found.IsRegular() || isLast || _levels->HasExactCorners(level, face)) {
                 if (!found.IsRegular()) {
-                    _made->patches->nodes[node].corners = static_cast<std::int32_t>(_corners.size());
+                    int const before = static_cast<int>(_numCornersBefore);
+                    _made->patches->nodes[node].corners =
+                        before + static_cast<std::int32_t>(_corners.size()) * numCorners();
                     _corners.push_back({level, face});
                 }
                 std::vector<std::uint32_t> const lines = linesOf(level, inputs);
@@ -178,13 +124,13 @@ private:
                 return;
             }
         }
-        Far::ConstIndexArray const children = _levels.Level(level).GetFaceChildFaces(face);
+        Far::ConstIndexArray const children = _levels->Level(level).GetFaceChildFaces(face);
         std::vector<std::uint32_t> const nodes = newNodes(children.size());
         _made->patches->nodes[node].kind = FaceNode::Kind::Split;
         _made->patches->nodes[node].first = nodes[0];
         for (int i = 0; i < children.size(); ++i) compile(level + 1, children[i], nodes[index(i)]);
-        updateSplit(node);
     }
+    int numCorners() const { return _made->isCatmark ? 4 : 3; }
 
     void updateSplit(std::uint32_t node) {
         FaceNode& split = _made->patches->nodes[node];
@@ -193,10 +139,10 @@ private:
 
     /// The first lines of values of a level; each is made once.
     std::uint32_t lineOf(int level, FaceCorner const& at) {
-        int const value = _levels.ValueAt(level, at);
+        int const value = _levels->Levels().ValueAt(level, at);
         auto const [found, isNew] =
             _lineOfValue.emplace(std::make_pair(level, value), static_cast<std::uint32_t>(_firstLines.size()));
-        if (isNew) _firstLines.push_back({level, value, tables::VertexAt(_levels.Level(level), at)});
+        if (isNew) _firstLines.push_back({level, value, tables::VertexAt(_levels->Level(level), at)});
         return found->second;
     }
     std::vector<std::uint32_t> linesOf(int level, std::vector<FaceCorner> const& at) {
@@ -207,88 +153,85 @@ private:
     }
     /// Of a vertex's first value: good for its position.
     std::uint32_t lineOfVertex(int level, int vertex) {
-        return lineOf(level, {_levels.Level(level).GetVertexFaces(vertex)[0],
-                              _levels.Level(level).GetVertexFaceLocalIndices(vertex)[0]});
+        return lineOf(level, {_levels->Level(level).GetVertexFaces(vertex)[0],
+                              _levels->Level(level).GetVertexFaceLocalIndices(vertex)[0]});
     }
 
-    /// Rows of the first lines from the cut-out's vertices, and from the values of the start level.
+    /// The first lines that these levels add, in order: rows from the cut-out's vertices, and from the values of
+    /// the start level.
     void makeFirstLines() {
         for (auto const& [level, face] : _corners) makeCorners(level, face);
-        std::size_t const count = _firstLines.size();
-        std::vector<std::vector<std::size_t>> linesOfLevel(index(_lastLevel) + 1);
-        for (std::size_t i = 0; i < count; ++i) linesOfLevel[index(_firstLines[i].level)].push_back(i);
-
-        std::vector<std::vector<std::pair<int, double>>> positions(count), normals(count);
-        int const startLevel = _options.shading.startNormals.level;
-        std::map<int, int> sourceOfValue;
-        for (int level = 0; level <= _lastLevel; ++level) {
+        std::size_t const first = _numLinesBefore, count = _firstLines.size() - first;
+        std::vector<std::vector<std::size_t>> linesOfLevel(index(_levels->LastLevel()) + 1);
+        for (std::size_t i = 0; i < count; ++i) {
+            linesOfLevel[index(_firstLines[first + i].level)].push_back(i);
+        }
+        // Of a row the level's number, and where it is among those.
+        tables::FlatRows positions, normals;
+        std::vector<std::size_t> positionRow(count), normalRow(count, kNoRow);
+        for (int level = 0; level <= _levels->LastLevel(); ++level) {
             std::vector<std::size_t> const& lines = linesOfLevel[index(level)];
             if (lines.empty()) continue;
-            std::vector<std::pair<int, int>> vertices, values;
+            std::vector<int> vertices;
+            std::vector<std::pair<int, int>> values;
             for (std::size_t const i : lines) {
-                vertices.emplace_back(_firstLines[i].vertex, _firstLines[i].vertex);
-                values.emplace_back(_firstLines[i].value, _firstLines[i].vertex);
+                FirstLine const& line = _firstLines[first + i];
+                positionRow[i] = positions.Size() + vertices.size();
+                normalRow[i] = normals.Size() + values.size();
+                vertices.push_back(line.vertex);
+                values.emplace_back(line.value, line.vertex);
             }
-            std::sort(vertices.begin(), vertices.end());
-            vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-            {
-                tables::NeededRows const needed(_levels, tables::ElementKind::Vertex, 0, level, vertices);
-                tables::FlatRows const rows = tables::ComposeRows(needed);
-                for (std::size_t const i : lines) {
-                    auto const row = index(needed.IndexOf(level, _firstLines[i].vertex));
-                    for (std::size_t t = rows.offsets[row]; t < rows.offsets[row + 1]; ++t) {
-                        positions[i].emplace_back(needed.Level(0).elements[index(rows.sources[t])],
-                                                  rows.weights[t]);
-                    }
-                }
-            }
-            if (!_hasWeights || level < startLevel) continue;
-            tables::NeededRows const needed(_levels, tables::ElementKind::Value, startLevel, level, values);
-            tables::FlatRows const rows = tables::ComposeRows(needed);
-            for (std::size_t const i : lines) {
-                auto const row = index(needed.IndexOf(level, _firstLines[i].value));
-                for (std::size_t t = rows.offsets[row]; t < rows.offsets[row + 1]; ++t) {
-                    int const value = needed.Level(startLevel).elements[index(rows.sources[t])];
-                    auto const [found, isNew] =
-                        sourceOfValue.emplace(value, static_cast<int>(_made->normalSources.size()));
-                    if (isNew) _made->normalSources.push_back(value);
-                    normals[i].emplace_back(found->second, rows.weights[t]);
-                }
+            _levels->AppendPositions(level, vertices, positions);
+            if (_levels->HasWeights() && _levels->HasNormals(level)) {
+                _levels->AppendNormals(level, values, normals);
+            } else {
+                for (std::size_t const i : lines) normalRow[i] = kNoRow;
             }
         }
-        auto const flatten = [](auto const& rowsOfLines, tables::FlatRows& rows) {
-            for (auto const& row : rowsOfLines) {
-                for (auto const& [source, weight] : row) {
-                    rows.sources.push_back(source);
-                    rows.weights.push_back(weight);
-                }
-                rows.offsets.push_back(rows.sources.size());
-            }
-        };
-        flatten(positions, _made->positionRows);
-        if (_hasWeights) flatten(normals, _made->normalRows);
-        for (FirstLine const& line : _firstLines) _made->weights.push_back(weightOf(line.level, line.value));
-        if (_hasWeights) makeStart(startLevel);
+        for (std::size_t i = 0; i < count; ++i) {
+            appendRow(positions, positionRow[i], _made->positionRows);
+            appendRow(normals, normalRow[i], _made->normalRows);
+            _made->weights.push_back(_levels->WeightOf(_firstLines[first + i].level, _firstLines[first + i].value));
+        }
     }
 
-    void makeStart(int startLevel) {
-        _made->start.reset(new StartMesh{
-            RefinedTopology(_mesh.Mesh(_options.rules), startLevel), CreaseRegions(_topology, startLevel, 1), {}});
+    static void appendRow(tables::FlatRows const& from, std::size_t row, tables::FlatRows& to) {
+        for (std::size_t t = from.offsets[row]; row != kNoRow && t < from.offsets[row + 1]; ++t) {
+            to.sources.push_back(from.sources[t]);
+            to.weights.push_back(from.weights[t]);
+        }
+        to.offsets.push_back(to.sources.size());
+    }
+
+    /// Numbers the values of the start level that normals are sums of.
+    void finishNormals() {
+        if (!_made->HasWeights()) return;
+        std::map<int, int> sourceOfValue;
+        for (int& source : _made->normalRows.sources) {
+            auto const [found, isNew] =
+                sourceOfValue.emplace(source, static_cast<int>(_made->normalSources.size()));
+            if (isNew) _made->normalSources.push_back(source);
+            source = found->second;
+        }
+        int const startLevel = _options.shading.startNormals.level;
+        RefinedTopology topology(_mesh.Mesh(_options.rules), startLevel);
+        CreaseRegions regions(topology, startLevel, 1);
+        _made->start.reset(new StartMesh{std::move(topology), std::move(regions), {}});
         for (int level = 1; level <= startLevel; ++level) {
             _made->start->masks.push_back(_made->start->topology.RecordMasks<double>(level));
         }
     }
 
     void makeCorners(int level, int face) {
-        LimitStep<double> const& limit = limitStep(level);
-        std::vector<FaceCorner> const grid = tables::FindFaceGrid(_topology, level, face, level);
-        tables::TangentRows tangents(_levels, limit, level, grid);
-        bool const isCatmark = _topology.IsCatmark();
-        int const places[4][2] = {{0, 0}, {0, 1}, {1, isCatmark ? 1 : 0}, {1, 0}};
-        for (int corner = 0; corner < (isCatmark ? 4 : 3); ++corner) {
+        LimitStep<double> const& limit = _levels->LimitOf(level);
+        std::vector<FaceCorner> const grid = tables::FindFaceGrid(_levels->Topology(), level, face, level);
+        tables::TangentRows tangents(_levels->Levels(), limit, level, grid);
+        int const places[4][2] = {{0, 0}, {0, 1}, {1, _made->isCatmark ? 1 : 0}, {1, 0}};
+        for (int corner = 0; corner < numCorners(); ++corner) {
             int const row = places[corner][0], column = places[corner][1];
             FaceCorner const at = grid[index(2 * row + column)];
-            int const vertex = tables::VertexAt(_levels.Level(level), at), value = _levels.ValueAt(level, at);
+            int const vertex = tables::VertexAt(_levels->Level(level), at),
+                      value = _levels->Levels().ValueAt(level, at);
             FaceCornerRows made;
             made.vertexLine = lineOf(level, at);
             std::map<std::uint32_t, FaceCornerRows::Term> terms;
@@ -308,7 +251,7 @@ private:
             for (auto const& [line, t] : terms) made.terms.push_back(t);
             // Its faces: also where tangents turn out to be degenerate.
             for (std::size_t i = 0; i < frame.fan.faces.size(); ++i) {
-                Far::ConstIndexArray const vertices = _levels.Level(level).GetFaceVertices(frame.fan.faces[i]);
+                Far::ConstIndexArray const vertices = _levels->Level(level).GetFaceVertices(frame.fan.faces[i]);
                 made.faces.emplace_back();
                 for (int j = 0; j < vertices.size(); ++j) {
                     made.faces.back().push_back(
@@ -322,13 +265,13 @@ private:
     std::uint32_t lineOfValue(int level, int value) {
         auto const known = _lineOfValue.find({level, value});
         if (known != _lineOfValue.end()) return known->second;
-        std::vector<int> const& first = _levels.Regions(level).FirstValues();
+        std::vector<int> const& first = _levels->Levels().Regions(level).FirstValues();
         int const vertex =
             static_cast<int>(std::upper_bound(first.begin(), first.end(), value) - first.begin() - 1);
-        Far::ConstIndexArray const faces = _levels.Level(level).GetVertexFaces(vertex);
-        Far::ConstLocalIndexArray const corners = _levels.Level(level).GetVertexFaceLocalIndices(vertex);
+        Far::ConstIndexArray const faces = _levels->Level(level).GetVertexFaces(vertex);
+        Far::ConstLocalIndexArray const corners = _levels->Level(level).GetVertexFaceLocalIndices(vertex);
         for (int i = 0; i < faces.size(); ++i) {
-            if (_levels.ValueAt(level, {faces[i], corners[i]}) == value)
+            if (_levels->Levels().ValueAt(level, {faces[i], corners[i]}) == value)
                 return lineOf(level, {faces[i], corners[i]});
         }
         assert(false);
@@ -338,13 +281,6 @@ private:
     /// Rows follow the first lines: so they are numbered when all of those are known.
     void finishRows() {
         for (Pending const& pending : _pending) expand(pending.node, *pending.limitClass, pending.lines, 0);
-        // Each face has its own 4 corners (3 in Loop).
-        int next = 0;
-        for (FaceNode& node : _made->patches->nodes) {
-            if (node.corners < 0) continue;
-            next = node.corners * (_topology.IsCatmark() ? 4 : 3);
-            node.corners = next;
-        }
         for (std::size_t i = _made->patches->nodes.size(); i-- > 0;) {
             if (_made->patches->nodes[i].kind == FaceNode::Kind::Split) updateSplit(static_cast<std::uint32_t>(i));
         }
@@ -407,24 +343,39 @@ private:
         std::vector<std::uint32_t> lines;
     };
 
+    static constexpr std::size_t kNoRow = ~std::size_t{0};
+
     FaceClassOptions const& _options;
-    int _lastLevel;
     LimitClasses& _limitClasses;
     tables::TileRing const& _mesh;
-    RefinedTopology _topology;
-    RegionLevels _levels;
-    std::vector<std::unique_ptr<LimitStep<double>>> _limits;  // by level
-    WeightHistory<double> _history;
-    std::vector<bool> _isChanged;  // by its levels
-    bool _hasWeights = false;
-    std::vector<FirstLine> _firstLines;
-    std::map<std::pair<int, int>, std::uint32_t> _lineOfValue;  // by level and value
-    std::vector<Pending> _pending;
-    std::vector<std::pair<int, int>> _corners;  // level and face of irregular faces of the last level
     std::unique_ptr<FaceClass> _made;
+    std::vector<Pending> _pending;
+    std::vector<FirstLine> _firstLines;
+    std::vector<Unsettled> _unsettled;
+
+    // Of the levels that are compiled.
+    CutOutLevels* _levels = nullptr;
+    std::size_t _numLinesBefore = 0, _numCornersBefore = 0;
+    std::map<std::pair<int, int>, std::uint32_t> _lineOfValue;  // by level and value
+    std::vector<std::pair<int, int>> _corners;                  // level and face of irregular faces
 };
 
 }  // namespace
+
+std::size_t FaceClass::NumBytes() const {
+    auto const bytesOf = [](auto const& array) { return array.capacity() * sizeof array[0]; };
+    auto const bytesOfRows = [&](auto const& r) {
+        return bytesOf(r.offsets) + bytesOf(r.sources) + bytesOf(r.weights);
+    };
+    std::size_t bytes = sizeof *this + bytesOf(patches->nodes) + bytesOf(patches->indices) +
+                        bytesOf(normalSources) + bytesOf(weights) + bytesOf(corners) + bytesOfRows(positionRows) +
+                        bytesOfRows(normalRows) + bytesOfRows(rows);
+    for (FaceCornerRows const& corner : corners) {
+        bytes += bytesOf(corner.terms);
+        for (std::vector<std::uint32_t> const& face : corner.faces) bytes += bytesOf(face);
+    }
+    return bytes;
+}
 
 int NumRingsOf(FaceClassOptions const& options) {
     ShadingOptions const& shading = options.shading;

@@ -9,6 +9,7 @@
 
 #include "osd_shading/fieldRefiner.h"
 #include "osd_shading/shadingOptions.h"
+#include "osd_shading/surface/cutOutLevels.h"
 #include "osd_shading/surface/limitClasses.h"
 #include "osd_shading/tables/neededRows.h"
 
@@ -70,12 +71,8 @@ struct FaceClass {
     std::size_t NumFirstLines() const { return positionRows.Size(); }
     std::size_t NumLines() const { return weights.size(); }
     bool HasWeights() const { return !normalRows.sources.empty(); }
-};
-
-/// How faces are compiled.
-struct FaceClassOptions {
-    ShadingOptions shading;  ///< resolved
-    SubdivisionRules rules;
+    /// Of its arrays, nearly.
+    std::size_t NumBytes() const;
 };
 
 /// The rings that a face's fields depend on, at most.
