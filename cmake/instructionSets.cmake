@@ -43,6 +43,8 @@ function(osd_shading_instruction_sets output)
         endforeach()
     endif()
     set_source_files_properties(tables/patchKernelsPortable.cpp PROPERTIES COMPILE_OPTIONS "${exact}")
+    # What the other files share is compiled for any processor.
+    set_source_files_properties(${files} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
     set_source_files_properties(tables/patchKernels.cpp PROPERTIES COMPILE_DEFINITIONS "${definitions}")
     set(${output} ${files} PARENT_SCOPE)
 endfunction()

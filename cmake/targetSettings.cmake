@@ -11,9 +11,10 @@ function(osd_shading_settings target)
     if(MSVC)
         target_compile_options(${target} PRIVATE /W4 /permissive- $<$<BOOL:${OSD_SHADING_WERROR}>:/WX>)
     else()
-        # -Wno-restrict: g++ 12 and 13 find an overlap in any "text" + std::string (GCC bug 105651).
+        # -Wno-...: g++ 12 and 13 find overlaps and lengths below 0 in any "text" + std::string (GCC bug 105651).
         target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow
-                                                 $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+                                                 $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds>
+                                                 $<$<CXX_COMPILER_ID:Clang>:-Wreserved-identifier>
                                                  $<$<BOOL:${OSD_SHADING_WERROR}>:-Werror>)
     endif()
 
@@ -23,4 +24,12 @@ function(osd_shading_settings target)
                                                  -fno-omit-frame-pointer)
         target_link_options(${target} PRIVATE -fsanitize=${sanitizers})
     endif()
+endfunction()
+
+# Large headers that most of a target's files include, compiled once: that halves the time of a build. Each file names
+# what it needs all the same; lint compiles without.
+function(osd_shading_precompile target)
+    target_precompile_headers(${target} PRIVATE
+        <algorithm> <cmath> <cstdint> <functional> <map> <memory> <string> <unordered_map> <utility> <vector>
+        <opensubdiv/far/primvarRefiner.h> <opensubdiv/far/topologyDescriptor.h> ${ARGN})
 endfunction()

@@ -28,9 +28,6 @@ GeometryCheck checkShape(Shape const& shape, ShadingOptions const& options) {
     return CheckGeometry<Real>(shape.Mesh(), points, Shade<Real>(shape, options));
 }
 
-// Sanitizers make the sweep ten times slower, and levels 3 and 4 run no other code than 2.
-int const kLastLevel = IsSanitizerRun() ? 2 : 4;
-
 std::string describe(GeometryCheck const& check) {
     std::string text;
     for (GeometryComparison const& comparison : check.comparisons) {
@@ -53,9 +50,10 @@ std::optional<io::Model> readUnlessRefused(std::string const& file) {
 }
 
 /// Every level of a model that has limits, both schemes where they apply.
-void checkModel(std::string const& file, int lastLevel) {
+void checkModel(std::string const& file) {
     std::optional<io::Model> const model = readUnlessRefused(file);
     if (!model) return;
+    int const lastLevel = LastLevelOf(model->faceVertices.size(), 4);
     auto const allHave = [&](int size) {
         return std::all_of(model->faceSizes.begin(), model->faceSizes.end(), [&](int n) { return n == size; });
     };
@@ -83,13 +81,13 @@ void checkModel(std::string const& file, int lastLevel) {
 TEST(GeometryCheck, PositionsEqualOpenSubdivsOnEveryModelOfOurs) {
     std::vector<std::string> const files = ioFiles::OwnModels();
     ASSERT_FALSE(files.empty());
-    for (auto const& file : files) checkModel(file, kLastLevel);
+    for (auto const& file : files) checkModel(file);
 }
 
 TEST(GeometryCheck, PositionsEqualOpenSubdivsOnEveryFurtherModel) {
     std::vector<std::string> const files = ioFiles::SharedModels();
     if (files.empty()) GTEST_SKIP() << "there are no further models in " << OSD_SHADING_EXTRA_MODELS;
-    for (auto const& file : files) checkModel(file, kLastLevel);
+    for (auto const& file : files) checkModel(file);
 }
 
 TEST(GeometryCheck, ComparesEveryVertexOfAModelWithoutTheExceptedCases) {

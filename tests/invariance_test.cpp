@@ -14,6 +14,7 @@
 
 #include "osd_shading/subdivisionShading.h"
 #include "tests/naiveReference.h"
+#include "tests/sampleSize.h"
 #include "tests/shapes.h"
 
 // What must not change a result, and what every result must keep.
@@ -23,6 +24,7 @@ namespace {
 using namespace osd_shading;
 using shapes::Random;
 using shapes::Shape;
+using tests::SweepLevel;
 using Vector = Vec3<double>;
 
 std::size_t U(int i) { return static_cast<std::size_t>(i); }
@@ -274,7 +276,7 @@ TEST(Invariance, MirroringTheMeshMirrorsTheResult) {
         auto faces = shape.Faces();
         for (auto& face : faces) std::reverse(face.begin(), face.end());
         mirrored.SetFaces(faces);
-        for (ShadingOptions const& options : SomeOptions(2)) {
+        for (ShadingOptions const& options : SomeOptions(SweepLevel(2))) {
             // A reflected mesh whose faces were turned round has reflected normals on the same side.
             EXPECT_TRUE(SameCornersInAnyOrder(Mapped(Corners(ShadeShape(shape, options)), kMirror, 1, {}, 1),
                                               Corners(ShadeShape(mirrored, options))))
@@ -289,7 +291,7 @@ TEST(Invariance, TurningTheFacesInsideOutOnlyReversesTheNormals) {
         auto faces = shape.Faces();
         for (auto& face : faces) std::reverse(face.begin(), face.end());
         reversed.SetFaces(faces);
-        for (ShadingOptions const& options : SomeOptions(2)) {
+        for (ShadingOptions const& options : SomeOptions(SweepLevel(2))) {
             EXPECT_TRUE(SameCornersInAnyOrder(Mapped(Corners(ShadeShape(shape, options)), kIdentity, 1, {}, -1),
                                               Corners(ShadeShape(reversed, options))))
                 << shape.name;
@@ -301,7 +303,7 @@ TEST(Invariance, RenumberingVerticesAndFacesChangesNothing) {
     Random random(12);
     for (Shape const& shape : SomeShapes()) {
         Shape const renumbered = Renumbered(shape, random);
-        for (ShadingOptions const& options : SomeOptions(2)) {
+        for (ShadingOptions const& options : SomeOptions(SweepLevel(2))) {
             EXPECT_TRUE(SameCornersInAnyOrder(Corners(ShadeShape(shape, options)),
                                               Corners(ShadeShape(renumbered, options))))
                 << shape.name;

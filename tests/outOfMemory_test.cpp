@@ -29,6 +29,9 @@
 
 // OpenSubdiv's factories lose what they were making: a leak sanitizer shall look at our own code.
 // Seen from outside: g++'s sanitizer is a shared library.
+#if defined(__clang__)
+#    pragma clang diagnostic ignored "-Wreserved-identifier"
+#endif
 extern "C" __attribute__((visibility("default"))) char const* __lsan_default_suppressions();
 extern "C" char const* __lsan_default_suppressions() {
     return "leak:libosdCPU\nleak:OpenSubdiv::*::Far::TopologyRefinerFactory\n";

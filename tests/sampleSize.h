@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 
@@ -33,6 +34,33 @@ inline bool IsSanitizerRun() {
 inline std::uint64_t SampleSize(std::uint64_t sample) {
     if (IsFullRun()) return 10 * sample;
     return IsSanitizerRun() ? std::max<std::uint64_t>(sample / 10, 4) : sample;
+}
+
+/// How many cases a sweep over all shapes compares at least: a tenth under sanitizers, which see fewer shapes.
+inline std::int64_t Fewest(std::int64_t count) { return IsSanitizerRun() ? count / 10 : count; }
+
+/// The level of a sweep's results: one less under sanitizers, which run through the same code there.
+inline int SweepLevel(int level) { return IsSanitizerRun() && !IsFullRun() ? level - 1 : level; }
+
+/// Picks cases of a sweep: each in a full run, else each `step`th; under sanitizers each ninth of those. Steps
+/// without a common factor with the numbers of shapes and options change from one to the next.
+class SweepSample {
+public:
+    explicit SweepSample(std::uint64_t step) : _step(IsFullRun() ? 1 : IsSanitizerRun() ? 9 * step : step) {}
+    bool Takes() { return _turn++ % _step == 0; }
+
+private:
+    std::uint64_t _step, _turn = 0;
+};
+
+/// The last level that a test takes a model of so many face corners to: `last` in a full run; else not further than
+/// where it has some 15,000 faces (500 under sanitizers), but level 1 always.
+inline int LastLevelOf(std::size_t numCorners, int last) {
+    if (IsFullRun()) return last;
+    std::size_t const mostFaces = IsSanitizerRun() ? 500 : 15000;
+    int level = std::min(last, 1);
+    for (std::size_t faces = 4 * numCorners; level < last && faces <= mostFaces; faces *= 4) ++level;
+    return level;
 }
 
 }  // namespace osd_shading::tests

@@ -550,8 +550,13 @@ TEST(ShadingEvaluator, ANanSpoilsTheTilesAroundItAndNothingElse) {
 
 /// The cases at level 2 and less: where every normal is settled by itself a frame takes its time.
 std::vector<Case> SmallCases() {
-    std::vector<Case> cases = Cases();
-    for (Case& c : cases) c.options.level = std::min(c.options.level, 2);
+    std::vector<Case> cases;
+    SweepSample sample(1);
+    for (Case const& c : Cases()) {
+        if (!sample.Takes()) continue;
+        cases.push_back(c);
+        cases.back().options.level = std::min(c.options.level, 2);
+    }
     return cases;
 }
 

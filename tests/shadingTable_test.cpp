@@ -89,10 +89,11 @@ std::vector<std::pair<std::string, ShadingOptions>> ManyOptions(int level, bool 
 }
 
 TEST(ShadingTable, AgreesWithTheOneShotPathInEveryOption) {
+    SweepSample sample(5);
     for (Shape const& shape : AllShapes()) {
         for (int level = 1; level <= 3; ++level) {
             for (auto const& [name, options] : ManyOptions(level, HasOnlyRegularFaces(shape))) {
-                ExpectAgreement(shape, options, name);
+                if (sample.Takes()) ExpectAgreement(shape, options, name);
             }
         }
     }

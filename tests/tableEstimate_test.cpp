@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "osd_shading/oneShotShading.h"
+#include "tests/sampleSize.h"
 #include "tests/testHelpers.h"
 
 namespace {
@@ -18,10 +19,12 @@ std::uint64_t EstimateOf(Shape const& shape, ShadingOptions const& options, Valu
 }
 
 TEST(TableEstimate, IsNeverLessThanTheTable) {
+    SweepSample sample(1);
     for (Shape const& shape : AllShapes()) {
         for (int level = HasOnlyRegularFaces(shape) ? 0 : 1; level <= 4; ++level) {
             for (ShadingOptions const& options : {PaperPreset(level), SmoothPreset(level)}) {
                 for (auto const order : {ValueOrder::Tiles, ValueOrder::OpenSubdiv}) {
+                    if (!sample.Takes()) continue;
                     ShadingTable const table(shape.Mesh(), options, order);
                     EXPECT_GE(EstimateOf(shape, options, order), table.NumBytes())
                         << shape.name << ", level " << level;

@@ -95,21 +95,9 @@ void ExpectAgreement(Case const& c, ShadingOptions const& options, std::string c
     }
 }
 
-/// CI: levels 0 to 3 of all, and 4 and 5 where that makes no more than 60,000 faces. A full run: all to level 5.
-int LastLevel(io::Model const& model) {
-    constexpr std::size_t kFaces = 60000;
-    int level = IsSanitizerRun() ? 2 : 3;
-    std::size_t faces = model.faceVertices.size() << (2 * level);
-    while (level < 5 && !IsSanitizerRun() && (IsFullRun() || faces * 4 <= kFaces)) {
-        ++level;
-        faces *= 4;
-    }
-    return level;
-}
-
 void ExpectAgreementOnAllLevels(std::vector<Case> const& cases) {
     for (Case const& c : cases) {
-        for (int level = c.firstLevel; level <= LastLevel(c.model); ++level) {
+        for (int level = c.firstLevel; level <= LastLevelOf(c.model.faceVertices.size(), 5); ++level) {
             ExpectAgreement(c, PaperPreset(level), "paper");
             if (level == 3) ExpectAgreement(c, SmoothPreset(level), "smooth");
         }

@@ -72,12 +72,14 @@ TEST(TileWeights, SeedLaterWhereASharpVertexWasSkipped) {
 }
 
 TEST(TileWeights, AgreeWithTheWholeMeshOnEveryShape) {
+    SweepSample sample(1);
     for (Shape const& shape : AllShapes()) {
         int const lowest = HasOnlyRegularFaces(shape) ? 0 : 1;
         for (auto const sharp :
              {SharpVertexWeight::Zero, SharpVertexWeight::Smooth, SharpVertexWeight::PerRegion}) {
             for (auto const darts : {DartWeight::LikeSmooth, DartWeight::LikeSharp}) {
                 for (int level = lowest; level <= 4; level += 2) {
+                    if (!sample.Takes()) continue;
                     ShadingOptions options = PaperPreset(level);
                     options.weights.sharpVertices = sharp;
                     options.weights.darts = darts;

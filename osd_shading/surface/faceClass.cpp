@@ -166,7 +166,6 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             linesOfLevel[index(_firstLines[first + i].level)].push_back(i);
         }
-        // Of a row the level's number, and where it is among those.
         tables::FlatRows positions, normals;
         std::vector<std::size_t> positionRow(count), normalRow(count, kNoRow);
         for (int level = 0; level <= _levels->LastLevel(); ++level) {
@@ -196,9 +195,12 @@ private:
     }
 
     static void appendRow(tables::FlatRows const& from, std::size_t row, tables::FlatRows& to) {
-        for (std::size_t t = from.offsets[row]; row != kNoRow && t < from.offsets[row + 1]; ++t) {
-            to.sources.push_back(from.sources[t]);
-            to.weights.push_back(from.weights[t]);
+        if (row != kNoRow) {
+            auto const at = [&](auto const& array, std::size_t i) {
+                return array.begin() + static_cast<std::ptrdiff_t>(from.offsets[i]);
+            };
+            to.sources.insert(to.sources.end(), at(from.sources, row), at(from.sources, row + 1));
+            to.weights.insert(to.weights.end(), at(from.weights, row), at(from.weights, row + 1));
         }
         to.offsets.push_back(to.sources.size());
     }
