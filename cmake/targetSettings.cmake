@@ -14,7 +14,7 @@ function(osd_shading_settings target)
         # -Wno-...: g++ 12 and 13 find overlaps and lengths below 0 in any "text" + std::string (GCC bug 105651).
         target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow
                                                  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds>
-                                                 $<$<CXX_COMPILER_ID:Clang>:-Wreserved-identifier>
+                                                 $<$<CXX_COMPILER_ID:Clang>:-Wreserved-identifier;-Wzero-as-null-pointer-constant>
                                                  $<$<BOOL:${OSD_SHADING_WERROR}>:-Werror>)
     endif()
 

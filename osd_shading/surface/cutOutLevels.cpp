@@ -198,6 +198,7 @@ bool CutOutLevels::CanBeCut(std::vector<int> const& faces) {
 
 void CutOutLevels::AppendPositions(int level, std::vector<int> const& vertices, tables::FlatRows& rows) {
     std::vector<std::pair<int, int>> wanted;
+    wanted.reserve(vertices.size());
     for (int const v : vertices) wanted.emplace_back(v, v);
     tables::NeededRows const needed(_levels, tables::ElementKind::Vertex, 0, level, sortedOnce(wanted));
     tables::FlatRows const composed = tables::ComposeRows(needed);

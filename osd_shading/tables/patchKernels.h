@@ -102,7 +102,7 @@ struct LeafFrame {
         float* data;
         std::size_t stride;
     };
-    Output positions, blendedNormals, limitNormals, subdividedNormals, tangents1, tangents2;
+    Output positions, blendedNormals, limitNormals, subdividedNormals;
 
     std::uint16_t* doubtful;  ///< points whose N_L or N_B is doubtful, ascending; room for numPoints
     int numDoubtful;          ///< set by `finish`

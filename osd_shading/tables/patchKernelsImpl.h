@@ -508,11 +508,6 @@ private:
         if (first < numPoints) f(numPoints < kLanes ? 0 : numPoints - kLanes);
     }
 
-    static void writeField(FieldArrays const& field, LeafFrame::Output const& output, int numPoints) {
-        if (!output.data) return;
-        forAllPoints(numPoints, [&](int first) { write(output, first, numPoints, load(field, first)); });
-    }
-
     enum class Blend {
         LimitOnly,       ///< no N_S: b is 0
         SubdividedOnly,  ///< no N_L: b is 1
@@ -530,8 +525,6 @@ private:
                 write(frame.positions, first, numPoints, {p.x + x, p.y + y, p.z + z});
             });
         }
-        writeField(frame.tangent1, frame.tangents1, numPoints);
-        writeField(frame.tangent2, frame.tangents2, numPoints);
 
         if (!frame.subdivided.x) {
             if (frame.tangent1.x) finishNormals<Blend::LimitOnly>(frame);
