@@ -26,6 +26,14 @@ function(osd_shading_settings target)
     endif()
 endfunction()
 
+# The same for programs, which spend their time in the library: with sanitizers it takes longer to optimise them.
+function(osd_shading_program_settings target)
+    osd_shading_settings(${target})
+    if(OSD_SHADING_SANITIZE AND NOT MSVC)
+        target_compile_options(${target} PRIVATE -O0)
+    endif()
+endfunction()
+
 # Large headers that most of a target's files include, compiled once: that halves the time of a build. Each file names
 # what it needs all the same; lint compiles without.
 function(osd_shading_precompile target)
