@@ -6,17 +6,22 @@
 // CI runs all models, and of the options a covering array: every pair of values of any two options stands in a row
 // of it. A model runs all rows, one with many faces every fourth, and levels that give more than 3000 faces are cut
 // to those that do not. A full run (OSD_SHADING_TEST_FULL) shades all levels 0 to 3 with the product of boundary
-// and creasing rules, triangle rules, variants, darts and weight schemes.
+// and creasing rules, triangle rules, variants, darts and weight schemes, on as many threads as there are; rules
+// for what a model does not have (boundaries, fading creases, triangles, anything sharp) take the first of their
+// values.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -135,15 +140,20 @@ Choice choiceOf(Row const& row) {
     return choice;
 }
 
+/// What a model has that some options are about.
+struct Traits {
+    bool hasBoundary = false, hasFading = false, hasTriangles = false, hasSharp = false;
+};
+
 /// Every combination of what the whole sweep varies, `level` apart.
-std::vector<Choice> allChoices(int level) {
+std::vector<Choice> allChoices(int level, Traits const& traits) {
     std::vector<Choice> choices;
-    for (int boundary = 0; boundary < 3; ++boundary) {
-        for (int creasing = 0; creasing < 2; ++creasing) {
-            for (int triangles = 0; triangles < 2; ++triangles) {
+    for (int boundary = 0; boundary < (traits.hasBoundary ? 3 : 1); ++boundary) {
+        for (int creasing = 0; creasing < (traits.hasFading ? 2 : 1); ++creasing) {
+            for (int triangles = 0; triangles < (traits.hasTriangles ? 2 : 1); ++triangles) {
                 for (int scheme = 0; scheme < 5; ++scheme) {
-                    for (int sharp = 0; sharp < 3; ++sharp) {
-                        for (int darts = 0; darts < 2; ++darts) {
+                    for (int sharp = 0; sharp < (traits.hasSharp ? 3 : 1); ++sharp) {
+                        for (int darts = 0; darts < (traits.hasSharp ? 2 : 1); ++darts) {
                             choices.push_back(choiceOf({level, boundary, creasing, triangles, 0, 0, 0, scheme,
                                                         sharp, darts, 0, 0, 0, 0, 0}));
                         }
@@ -233,7 +243,7 @@ std::string faultOf(GeometryCheck const& check) {
 
 /// What was done, which the tests print.
 struct Counts {
-    int numShaded = 0, numRefused = 0, numChecked = 0, numTables = 0;
+    std::atomic<int> numShaded{0}, numRefused{0}, numChecked{0}, numTables{0};
 };
 
 /// A model in one scheme.
@@ -250,6 +260,27 @@ public:
 
     std::size_t NumFaces(int level) const {
         return level == 0 ? _model.faceSizes.size() : _model.faceVertices.size() << (2 * (level - 1));
+    }
+
+    Traits FindTraits() const {
+        SubdivisionRules rules;
+        rules.scheme = _scheme;
+        RefinedTopology const topology(_model.Mesh(rules), 0);
+        Far::TopologyLevel const& level = topology.Level(0);
+        Traits traits;
+        auto const look = [&](float sharpness) {
+            traits.hasSharp |= sharpness > 0;
+            traits.hasFading |= sharpness > 0 && sharpness < Sdc::Crease::SHARPNESS_INFINITE;
+        };
+        for (int e = 0; e < level.GetNumEdges(); ++e) {
+            traits.hasBoundary |= level.GetEdgeFaces(e).size() == 1;
+            look(level.GetEdgeSharpness(e));
+        }
+        for (int v = 0; v < level.GetNumVertices(); ++v) look(level.GetVertexSharpness(v));
+        traits.hasTriangles =
+            _scheme == Sdc::SCHEME_CATMARK &&
+            std::find(_model.faceSizes.begin(), _model.faceSizes.end(), 3) != _model.faceSizes.end();
+        return traits;
     }
 
     /// Shades; checks the geometry, and a table, where that is asked for.
@@ -330,18 +361,35 @@ void sweepSample(Case const& c, Counts& counts) {
 }
 
 void sweepAll(Case const& c, Counts& counts) {
+    struct Task {
+        Choice choice;
+        bool isChecked;
+    };
+    std::vector<Task> tasks;
+    Traits const traits = c.FindTraits();
     for (int level = 0; level <= 3; ++level) {
-        for (Choice const& choice : allChoices(level)) {
+        for (Choice const& choice : allChoices(level, traits)) {
             // Geometry does not depend on the weights: the first scheme and the smooth variant are checked.
             ShadingOptions const& o = choice.options;
             bool const isChecked =
                 o.weights.sharpVertices == SharpVertexWeight::Zero && o.weights.darts == DartWeight::LikeSmooth &&
                 (o.weights.scheme == WeightScheme::OneRing || o.weights.scheme == WeightScheme::One);
-            c.Run(choice, isChecked, /*hasTable=*/isChecked, counts);
+            tasks.push_back({choice, isChecked});
         }
     }
     // And the pairs of all other options.
-    for (Row const& row : coveringArray(kCounts)) c.Run(choiceOf(row), true, true, counts);
+    for (Row const& row : coveringArray(kCounts)) tasks.push_back({choiceOf(row), true});
+
+    std::atomic<std::size_t> next{0};
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i) {
+        threads.emplace_back([&] {
+            for (std::size_t task = next++; task < tasks.size(); task = next++) {
+                c.Run(tasks[task].choice, tasks[task].isChecked, /*hasTable=*/tasks[task].isChecked, counts);
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
 }
 
 void sweep(std::vector<std::string> const& files) {
@@ -352,12 +400,19 @@ void sweep(std::vector<std::string> const& files) {
         for (Sdc::SchemeType const scheme : {Sdc::SCHEME_CATMARK, Sdc::SCHEME_LOOP}) {
             if (scheme == Sdc::SCHEME_LOOP && !allFacesHave(*model, 3)) continue;
             Case const c(*model, scheme);
+            auto const start = std::chrono::steady_clock::now();
             IsFullRun() ? sweepAll(c, counts) : sweepSample(c, counts);
+            if (!IsFullRun()) continue;
+            std::chrono::duration<double> const seconds = std::chrono::steady_clock::now() - start;
+            std::printf("%s%s: %.1f s\n", model->name.c_str(), scheme == Sdc::SCHEME_LOOP ? ", loop" : "",
+                        seconds.count());
+            std::fflush(stdout);
         }
     }
     std::printf("%zu models: %d shaded, %d of them checked and %d with a table; %d refused\n", files.size(),
-                counts.numShaded, counts.numChecked, counts.numTables, counts.numRefused);
-    EXPECT_GT(counts.numShaded, 4 * counts.numRefused);
+                counts.numShaded.load(), counts.numChecked.load(), counts.numTables.load(),
+                counts.numRefused.load());
+    EXPECT_GT(counts.numShaded.load(), 4 * counts.numRefused.load());
 }
 
 TEST(Sweep, OurModelsGiveAResultThatPassesOrADocumentedRefusal) {
