@@ -71,9 +71,8 @@ inline shapes::RandomShapeOptions AnyKind(shapes::Random& random) {
     return kind;
 }
 
-/// Every shape in both schemes.
-/// Every shape. Under sanitizers each fifth, from one on that the running test's name chooses, so that the suite
-/// sees them all.
+/// Every shape in both schemes. Under sanitizers each fifth, from one on that the running test's name chooses, so
+/// that the suite sees them all.
 inline std::vector<Shape> AllShapes() {
     std::vector<Shape> all = shapes::CatmarkShapes();
     for (Shape const& shape : shapes::LoopShapes()) all.push_back(shape);

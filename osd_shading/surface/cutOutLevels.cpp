@@ -200,24 +200,25 @@ void CutOutLevels::AppendPositions(int level, std::vector<int> const& vertices, 
     std::vector<std::pair<int, int>> wanted;
     wanted.reserve(vertices.size());
     for (int const v : vertices) wanted.emplace_back(v, v);
-    tables::NeededRows const needed(_levels, tables::ElementKind::Vertex, 0, level, sortedOnce(wanted));
-    tables::FlatRows const composed = tables::ComposeRows(needed);
-    tables::RowAdder sum(numSourcesOf(_positionRows));
-    for (int const v : vertices) {
-        appendComposed(composed, index(needed.IndexOf(level, v)), needed.Level(0).elements, _positionRows, sum,
-                       rows);
-    }
+    appendRows(tables::ElementKind::Vertex, 0, level, wanted, _positionRows, rows);
 }
 
 void CutOutLevels::AppendNormals(int level, std::vector<std::pair<int, int>> const& values,
                                  tables::FlatRows& rows) {
     int const startLevel = std::max(0, _options.shading.startNormals.level - _firstLevel);
-    tables::NeededRows const needed(_levels, tables::ElementKind::Value, startLevel, level, sortedOnce(values));
+    appendRows(tables::ElementKind::Value, startLevel, level, values, _normalRows, rows);
+}
+
+/// One row for each of `wanted`, elements with their vertices, over what the elements of `fromLevel` are sums of.
+void CutOutLevels::appendRows(tables::ElementKind kind, int fromLevel, int level,
+                              std::vector<std::pair<int, int>> const& wanted, tables::FlatRows const& first,
+                              tables::FlatRows& rows) {
+    tables::NeededRows const needed(_levels, kind, fromLevel, level, sortedOnce(wanted));
     tables::FlatRows const composed = tables::ComposeRows(needed);
-    tables::RowAdder sum(numSourcesOf(_normalRows));
-    for (auto const& value : values) {
-        appendComposed(composed, index(needed.IndexOf(level, value.first)), needed.Level(startLevel).elements,
-                       _normalRows, sum, rows);
+    tables::RowAdder sum(numSourcesOf(first));
+    for (auto const& element : wanted) {
+        appendComposed(composed, index(needed.IndexOf(level, element.first)), needed.Level(fromLevel).elements,
+                       first, sum, rows);
     }
 }
 

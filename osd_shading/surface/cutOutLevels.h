@@ -70,6 +70,9 @@ private:
     void findWeights(std::vector<double> const* given);
     template <typename IsIt>
     bool anyRound(int level, int face, int at, IsIt const& isIt) const;
+    void appendRows(tables::ElementKind kind, int fromLevel, int level,
+                    std::vector<std::pair<int, int>> const& wanted, tables::FlatRows const& first,
+                    tables::FlatRows& rows);
     bool usesOne() const { return _options.shading.weights.scheme == WeightScheme::One; }
     bool hasWeight(int level, int face);
     bool isSeeded(int level, int face);
